@@ -1,0 +1,22 @@
+# Installation: headers under include/etalon, libraries, and the package files for find_package(etalon).
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+set(etalon_installed_targets etalon_numeric_flags etalon_numeric etalon_raster etalon_lighting)
+set(etalon_installed_folders numeric raster lighting)
+if(ETALON_APP)
+  list(APPEND etalon_installed_targets etalon_ar)
+  list(APPEND etalon_installed_folders ar)
+  install(TARGETS etalon RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()
+install(TARGETS ${etalon_installed_targets} EXPORT etalonTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+foreach(folder ${etalon_installed_folders})
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/etalon
+          FILES_MATCHING PATTERN "*.h" PATTERN "*.inc" PATTERN "*.glsl")
+endforeach()
+install(EXPORT etalonTargets NAMESPACE etalon:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/etalon)
+configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/etalonConfig.cmake.in
+  ${CMAKE_BINARY_DIR}/etalonConfig.cmake INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/etalon)
+write_basic_package_version_file(${CMAKE_BINARY_DIR}/etalonConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${CMAKE_BINARY_DIR}/etalonConfig.cmake ${CMAKE_BINARY_DIR}/etalonConfigVersion.cmake
+        DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/etalon)

@@ -1,0 +1,32 @@
+# Helpers that every folder's CMakeLists.txt uses, and the one target that carries the numeric flags.
+
+# etalon::numeric_flags: what every object that computes must be compiled with. Contraction into fused
+# multiply-adds is off for every compiler (g++ fuses by default, even with -std=c++20); fast-math never.
+add_library(etalon_numeric_flags INTERFACE)
+add_library(etalon::numeric_flags ALIAS etalon_numeric_flags)
+set_target_properties(etalon_numeric_flags PROPERTIES EXPORT_NAME numeric_flags)
+target_compile_features(etalon_numeric_flags INTERFACE cxx_std_20)
+target_compile_options(etalon_numeric_flags INTERFACE -ffp-contract=off -fno-fast-math -fno-math-errno)
+
+if(ETALON_ARCH)
+  target_compile_options(etalon_numeric_flags INTERFACE -march=${ETALON_ARCH})
+elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+  target_compile_options(etalon_numeric_flags INTERFACE -march=x86-64-v2)
+endif()
+# A note about parameter passing that g++ prints for wide vectors; nothing passes them across objects.
+target_compile_options(etalon_numeric_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-psabi>)
+
+# Warnings for our own code only; not exported.
+add_library(etalon_warnings INTERFACE)
+target_compile_options(etalon_warnings INTERFACE -Wall -Wextra -Wshadow -Wnon-virtual-dtor -Wcast-align
+                       $<$<BOOL:${ETALON_WERROR}>:-Werror>)
+
+# etalon_library(NAME sources...): one library target per folder, with its alias and export name.
+function(etalon_library name)
+  add_library(etalon_${name} STATIC ${ARGN})
+  add_library(etalon::${name} ALIAS etalon_${name})
+  set_target_properties(etalon_${name} PROPERTIES EXPORT_NAME ${name})
+  target_include_directories(etalon_${name} PUBLIC
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:include/etalon>)
+  target_link_libraries(etalon_${name} PUBLIC etalon_numeric_flags PRIVATE $<BUILD_INTERFACE:etalon_warnings>)
+endfunction()

@@ -1,0 +1,17 @@
+// Threads. Work is split into items that do not share results, so that the number of threads changes no bit.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+
+namespace etalon {
+
+// Number of hardware threads; at least 1.
+int hardwareThreads();
+
+// Calls body(i) once for every i in [0, count), on `threads` threads (0: all hardware threads; 1: the calling
+// thread, in order). Every thread that takes part first asserts the default floating-point control word.
+// The first exception that a body throws is rethrown here after the others have stopped.
+void parallelFor(size_t count, int threads, const std::function<void(size_t)>& body);
+
+}  // namespace etalon
