@@ -1,6 +1,7 @@
 // Images: planar, row 0 on top, pixel centres at +0.5.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <span>

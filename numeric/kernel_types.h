@@ -1,0 +1,58 @@
+// What a kernel text may use, for every number type it is compiled for: float, double, Lanes<S, N>,
+// Rounded<Format, D> and Truth. The class that includes a kernel text includes "numeric/kernel_scope.inc" first.
+// The subset and a worked example stand in docs/kernels.md.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <type_traits>
+#include <utility>
+
+#include "numeric/lanes.h"
+
+namespace etalon {
+
+// Number of values that a T holds side by side; the scalar it is stored as; the integer type that goes with it.
+// Number types of other headers specialise this.
+template <class T>
+struct NumberTraits {
+    static_assert(std::is_floating_point_v<T>);
+    static constexpr int lanes = 1;
+    using Integer = int32_t;
+};
+template <class S, int N>
+struct NumberTraits<Lanes<S, N>> {
+    static constexpr int lanes = N;
+    using Integer = Lanes<int32_t, N>;
+};
+
+// Scalar instances of the lane-wise operations.
+inline float select(bool c, float a, float b) { return c ? a : b; }
+inline double select(bool c, double a, double b) { return c ? a : b; }
+inline int32_t select(bool c, int32_t a, int32_t b) { return c ? a : b; }
+inline float squareRoot(float a) { return __builtin_sqrtf(a); }
+inline double squareRoot(double a) { return __builtin_sqrt(a); }
+inline float floorOf(float a) { return __builtin_floorf(a); }
+inline double floorOf(double a) { return __builtin_floor(a); }
+inline bool anyOf(bool c) { return c; }
+
+// Conversion between a number type and its integers. toInteger truncates; the value must be inside int32.
+inline int32_t toInteger(float a) { return static_cast<int32_t>(a); }
+inline int32_t toInteger(double a) { return static_cast<int32_t>(a); }
+template <class S, int N>
+Lanes<int32_t, N> toInteger(Lanes<S, N> a) {
+    return convertLanes<int32_t>(a);
+}
+template <class T>
+struct FromInteger {
+    static T of(int32_t a) { return static_cast<T>(a); }
+};
+template <class S, int N>
+struct FromInteger<Lanes<S, N>> {
+    static Lanes<S, N> of(Lanes<int32_t, N> a) { return convertLanes<S>(a); }
+};
+
+}  // namespace etalon

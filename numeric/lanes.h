@@ -1,0 +1,164 @@
+// Lanes<S, N>: N numbers of the scalar type S that are computed side by side (SIMD), with the operations that
+// kernel texts use. The scalar instance is Lanes<S, 1>. Every operation is the IEEE operation per lane, so the
+// number of lanes changes no bit.
+//
+// Built on the vector types that g++ and clang++ share. std::experimental::simd was tried first: with
+// libstdc++ 12, clang++ 14 and 16 drop masked assignments (where(m, v) = w leaves v unchanged) on x86-64-v4.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <type_traits>
+
+namespace etalon {
+
+// Bytes of the widest vector register of the target that this object is compiled for.
+#if defined(__AVX512F__)
+inline constexpr int kVectorBytes = 64;
+#elif defined(__AVX2__)
+inline constexpr int kVectorBytes = 32;
+#else
+inline constexpr int kVectorBytes = 16;
+#endif
+
+// Lanes of S that fill one vector register.
+template <class S>
+inline constexpr int kNativeLanes = kVectorBytes / static_cast<int>(sizeof(S));
+
+// The width at which mixed work (float, double and integer lanes together) runs: one register of float.
+inline constexpr int kLanes = kNativeLanes<float>;
+
+// The signed integer of the same size as S: the element of a comparison's result.
+template <class S>
+using MaskElement = std::conditional_t<sizeof(S) == 8, int64_t, std::conditional_t<sizeof(S) == 4, int32_t, int8_t>>;
+
+template <class S, int N>
+struct Mask;
+
+template <class S, int N = kNativeLanes<S>>
+struct Lanes {
+    static_assert(N > 0 && (N & (N - 1)) == 0, "the number of lanes is a power of two");
+    using Scalar = S;
+    typedef S Vector __attribute__((vector_size(N * sizeof(S))));
+    static constexpr int size = N;
+
+    Vector v;
+
+    Lanes() = default;
+    // The same value in each lane, rounded once to S.
+    explicit Lanes(double value) : v(Vector{} + static_cast<S>(value)) {}
+    explicit Lanes(Vector vector) : v(vector) {}
+
+    // Lane i holds f(i).
+    template <class F>
+    static Lanes generate(F&& f) {
+        Lanes r;
+        for (int i = 0; i < N; i++) r.v[i] = static_cast<S>(f(i));
+        return r;
+    }
+    static Lanes load(const S* from) {
+        Lanes r;
+        std::memcpy(&r.v, from, sizeof(Vector));
+        return r;
+    }
+    void store(S* to) const { std::memcpy(to, &v, sizeof(Vector)); }
+
+    S operator[](int lane) const { return v[lane]; }
+    void set(int lane, S value) { v[lane] = value; }
+
+    friend Lanes operator+(Lanes a, Lanes b) { return Lanes(a.v + b.v); }
+    friend Lanes operator-(Lanes a, Lanes b) { return Lanes(a.v - b.v); }
+    friend Lanes operator*(Lanes a, Lanes b) { return Lanes(a.v * b.v); }
+    friend Lanes operator/(Lanes a, Lanes b) { return Lanes(a.v / b.v); }
+    friend Lanes operator-(Lanes a) { return Lanes(-a.v); }
+
+    using M = Mask<S, N>;
+    friend M operator<(Lanes a, Lanes b) { return M(a.v < b.v); }
+    friend M operator<=(Lanes a, Lanes b) { return M(a.v <= b.v); }
+    friend M operator>(Lanes a, Lanes b) { return M(a.v > b.v); }
+    friend M operator>=(Lanes a, Lanes b) { return M(a.v >= b.v); }
+    friend M operator==(Lanes a, Lanes b) { return M(a.v == b.v); }
+    friend M operator!=(Lanes a, Lanes b) { return M(a.v != b.v); }
+};
+
+// The result of a comparison of Lanes<S, N>: all bits of a lane set (true) or none (false).
+template <class S, int N>
+struct Mask {
+    using Element = MaskElement<S>;
+    typedef Element Vector __attribute__((vector_size(N * sizeof(Element))));
+    Vector m;
+
+    Mask() = default;
+    explicit Mask(Vector mask) : m(mask) {}
+    explicit Mask(bool value) : m(Vector{} - static_cast<Element>(value)) {}
+
+    bool operator[](int lane) const { return m[lane] != 0; }
+    friend Mask operator&&(Mask a, Mask b) { return Mask(a.m & b.m); }
+    friend Mask operator||(Mask a, Mask b) { return Mask(a.m | b.m); }
+    friend Mask operator!(Mask a) { return Mask(~a.m); }
+};
+
+// Per lane: c ? a : b.
+template <class S, int N>
+Lanes<S, N> select(Mask<S, N> c, Lanes<S, N> a, Lanes<S, N> b) {
+    return Lanes<S, N>(c.m ? a.v : b.v);
+}
+template <class S, int N>
+Lanes<S, N> squareRoot(Lanes<S, N> a) {
+    for (int i = 0; i < N; i++) a.v[i] = static_cast<S>(sizeof(S) == 4 ? __builtin_sqrtf(static_cast<float>(a.v[i]))
+                                                                       : __builtin_sqrt(a.v[i]));
+    return a;
+}
+// Largest whole number that is not greater; -0 stays -0.
+template <class S, int N>
+Lanes<S, N> floorOf(Lanes<S, N> a) {
+    for (int i = 0; i < N; i++) a.v[i] = static_cast<S>(sizeof(S) == 4 ? __builtin_floorf(static_cast<float>(a.v[i]))
+                                                                       : __builtin_floor(a.v[i]));
+    return a;
+}
+template <class S, int N>
+bool anyOf(Mask<S, N> c) {
+    bool any = false;
+    for (int i = 0; i < N; i++) any = any || c.m[i] != 0;
+    return any;
+}
+
+// Converts each lane to the scalar type To (value conversion, rounded to nearest-even where To is narrower;
+// to an integer: truncated, the value must be inside To's range).
+template <class To, class S, int N>
+Lanes<To, N> convertLanes(Lanes<S, N> a) {
+    return Lanes<To, N>(__builtin_convertvector(a.v, typename Lanes<To, N>::Vector));
+}
+// The same mask for lanes of another scalar type.
+template <class To, class S, int N>
+Mask<To, N> convertMask(Mask<S, N> c) {
+    return Mask<To, N>(__builtin_convertvector(c.m, typename Mask<To, N>::Vector));
+}
+
+// Calls body(first, active) for consecutive groups of N items: active is N for all but the last group, whose
+// `active` says how many items are left. The one place where tails are cut.
+template <int N, class F>
+void forEachLaneGroup(size_t count, F&& body) {
+    for (size_t first = 0; first < count; first += static_cast<size_t>(N)) {
+        const size_t left = count - first;
+        body(first, left < static_cast<size_t>(N) ? static_cast<int>(left) : N);
+    }
+}
+
+// Loads `active` values; the lanes behind them repeat the last one, so that they compute on valid numbers.
+// active >= 1.
+template <class S, int N>
+Lanes<S, N> loadActive(const S* from, int active) {
+    if (active == N) return Lanes<S, N>::load(from);
+    return Lanes<S, N>::generate([&](int i) { return from[i < active ? i : active - 1]; });
+}
+
+// Stores the first `active` lanes and touches nothing behind them.
+template <class S, int N>
+void storeActive(Lanes<S, N> a, S* to, int active) {
+    if (active == N) return a.store(to);
+    for (int i = 0; i < active; i++) to[i] = a[i];
+}
+
+}  // namespace etalon
