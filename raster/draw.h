@@ -1,0 +1,66 @@
+// What is drawn, and with which fixed state (docs/specification.md).
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+namespace etalon {
+
+// A vertex position in clip space: inside the volume when 0 < w and 0 <= z <= w; x right, y up.
+struct ClipVertex {
+    double x = 0, y = 0, z = 0, w = 1;
+};
+
+enum class Compare : uint8_t { never, less, equal, lessEqual, greater, notEqual, greaterEqual, always };
+
+enum class StencilOperation : uint8_t {
+    keep,
+    zero,
+    replace,
+    incrementClamp,
+    decrementClamp,
+    invert,
+    incrementWrap,
+    decrementWrap
+};
+
+enum class CullMode : uint8_t { none, front, back };
+
+// Stencil test and operations for the triangles of one facing (rule 11).
+struct StencilFace {
+    Compare compare = Compare::always;
+    StencilOperation onStencilFail = StencilOperation::keep;
+    StencilOperation onDepthFail = StencilOperation::keep;
+    StencilOperation onPass = StencilOperation::keep;
+};
+
+struct StencilState {
+    bool enabled = false;
+    uint8_t reference = 0, readMask = 0xff, writeMask = 0xff;
+    StencilFace front, back;
+};
+
+// Depth bias (rule 7). clamp 0: no limit.
+struct DepthBias {
+    double constant = 0, slopeScale = 0, clamp = 0;
+};
+
+struct DrawState {
+    CullMode cull = CullMode::back;
+    bool frontIsClockwise = false;  // as seen on the screen
+    Compare depthCompare = Compare::less;
+    bool depthWrite = true;
+    bool idWrite = true;      // false: the triangle takes part in depth and stencil but is never visible
+    bool depthClamp = false;  // near and far planes do not clip; z is clamped to [0, 1]
+    DepthBias bias;
+    StencilState stencil;
+};
+
+// An indexed triangle list. indices: three per triangle, each below vertices.size().
+struct Draw {
+    std::span<const ClipVertex> vertices;
+    std::span<const uint32_t> indices;
+    DrawState state;
+};
+
+}  // namespace etalon

@@ -1,0 +1,41 @@
+// Draws triangles into a render target by the rules of docs/specification.md.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "raster/draw.h"
+#include "raster/render_target.h"
+
+namespace etalon {
+
+// Where clip space lands, in pixels; inside the render target, at least 1 x 1.
+struct Viewport {
+    int x = 0, y = 0, width = 0, height = 0;
+};
+
+// How the work is cut. Changes no bit.
+struct RasterOptions {
+    int threads = 0;    // 0: all hardware threads
+    int tileSize = 64;  // 8 to 256, a multiple of 8
+};
+
+struct RasterStatistics {
+    uint64_t triangles = 0;         // submitted
+    uint64_t droppedNonFinite = 0;  // rule 1
+    uint64_t rejected = 0;          // outside one plane of rule 2
+    uint64_t clipped = 0;           // cut by at least one plane
+    uint64_t zeroArea = 0;          // after snapping
+    uint64_t culled = 0;            // by facing
+    uint64_t records = 0;           // triangles and pieces that were drawn
+
+    friend bool operator==(const RasterStatistics&, const RasterStatistics&) = default;
+};
+
+// Draws the triangles of all draws in order into the part of the target inside the viewport. Ids refer to
+// target.triangles, which is appended to. Throws PreconditionError for an index out of range, a viewport that
+// leaves the target, or options out of range.
+RasterStatistics rasterize(RenderTarget& target, const Viewport& viewport, std::span<const Draw> draws,
+                           const RasterOptions& options = {});
+
+}  // namespace etalon

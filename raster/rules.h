@@ -1,0 +1,8 @@
+// The version of the rules in docs/specification.md. Written into every output and golden entry.
+#pragma once
+
+namespace etalon {
+
+inline constexpr int kRulesVersion = 1;
+
+}  // namespace etalon
