@@ -26,6 +26,8 @@ struct TriangleRecord {
     uint32_t draw, triangle;                  // which triangle of which draw
     std::array<uint8_t, 3> corner;            // record vertex i is the source vertex corner[i], when not clipped
     bool front;                               // facing
+    bool reversed;                            // a piece whose sign is opposite to its polygon's (rule 2)
+    uint8_t groupSize;                        // > 0: the first of the groupSize pieces of a polygon with mixed signs
     int32_t clipped;                          // -1, or the index of its entry in RenderTarget::clippedCorners
 };
 
@@ -54,6 +56,7 @@ struct RenderTarget {
     Image<uint32_t> id;
     std::vector<TriangleRecord> triangles;
     std::vector<ClippedCorners> clippedCorners;
+    uint32_t drawCount = 0;  // draws so far; TriangleRecord::draw counts over all calls of rasterize
 };
 
 // The stored integer of depth 1 (the clear value).

@@ -1,0 +1,41 @@
+#include "raster/blur.h"
+
+#include <cmath>
+
+#include "numeric/check.h"
+#include "numeric/elementary.h"
+#include "numeric/lanes.h"
+
+namespace etalon {
+
+namespace {
+
+// The double next to e.
+constexpr double kEuler = 0x1.5bf0a8b145769p+1;
+// Weights below are 0, see gaussianWeights.
+constexpr double kSmallestWeight = 0x1p-100;
+
+}  // namespace
+
+std::vector<double> gaussianWeights(int radius, double sigma) {
+    ETALON_CHECK(radius >= 0 && radius <= kMaxBlurRadius, "blur radius {}", radius);
+    ETALON_CHECK(sigma > 0.0 && std::isfinite(sigma), "sigma {}", sigma);
+    std::vector<double> weights;
+    for (int k = 0; k <= radius; k++) {
+        const double ratio = static_cast<double>(k) / sigma;
+        const double w = powOf(kEuler, -0.5 * (ratio * ratio));
+        weights.push_back(w < kSmallestWeight ? 0.0 : w);
+    }
+    // The smallest first.
+    double sum = 0.0;
+    for (size_t k = weights.size() - 1; k > 0; k--) sum = sum + 2.0 * weights[k];
+    sum = sum + weights[0];
+    for (double& w : weights) w = w / sum;
+    return weights;
+}
+
+Image<float> blurGaussian(const Image<float>& image, int radius, double sigma, int threads) {
+    return blurGaussian<Lanes<float, kLanes>>(image, radius, sigma, threads);
+}
+
+}  // namespace etalon

@@ -1,0 +1,39 @@
+// Clipping of one triangle in clip space (rule 2).
+#pragma once
+
+#include <array>
+
+#include "raster/draw.h"
+#include "raster/rasterizer.h"
+
+namespace etalon {
+
+// A vertex of a clipped polygon: its position, and its barycentric coordinates in the source triangle.
+struct PolygonVertex {
+    ClipVertex position;
+    std::array<double, 3> barycentric{};
+};
+
+// Each of the seven planes adds one vertex at most.
+inline constexpr int kMaxPolygonVertices = 3 + 7;
+
+// A convex polygon; count 0: nothing is left.
+struct Polygon {
+    std::array<PolygonVertex, kMaxPolygonVertices> vertices;
+    int count = 0;
+};
+
+enum class ClipResult { inside, clipped, rejected };
+
+// The guard band as multiples of w: half its width in units of half the viewport (rule 2).
+struct GuardBand {
+    explicit GuardBand(const Viewport& viewport);
+    double x, y;
+};
+
+// Clips the triangle against the planes of rule 2. `polygon` is written only for ClipResult::clipped.
+// Coordinates must be finite and below 2^500 in magnitude.
+ClipResult clipTriangle(const std::array<ClipVertex, 3>& triangle, const GuardBand& guard, bool depthClamp,
+                        Polygon& polygon);
+
+}  // namespace etalon

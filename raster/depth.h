@@ -1,0 +1,49 @@
+// Depth formats and bias (rules 6 and 7).
+#pragma once
+
+#include <cstdint>
+
+#include "numeric/lanes.h"
+#include "raster/draw.h"
+#include "raster/raster_kernels.h"
+#include "raster/render_target.h"
+
+namespace etalon {
+
+// 2^n - 1 of a UNORM format; 0 for D32F.
+inline double depthLevels(DepthFormat format) {
+    switch (format) {
+        case DepthFormat::d16: return 65535.0;
+        case DepthFormat::d24: return 16777215.0;
+        case DepthFormat::d32f: return 0.0;
+    }
+    return 0.0;
+}
+
+// The integers that are stored for depths z (any finite values; clamped to [0, 1] first).
+template <class S, int N>
+Lanes<int32_t, N> storedDepth(DepthFormat format, DepthRounding rounding, Lanes<S, N> z) {
+    z = RasterKernels<Lanes<S, N>>::clampOf(z, Lanes<S, N>(0.0), Lanes<S, N>(1.0));
+    if (format == DepthFormat::d32f) {
+        const Lanes<float, N> narrow = convertLanes<float>(z);
+        Lanes<int32_t, N> bits;
+        static_assert(sizeof(bits.v) == sizeof(narrow.v));
+        std::memcpy(&bits.v, &narrow.v, sizeof(bits.v));
+        return bits;
+    }
+    using Wide = Lanes<double, N>;
+    const double levels = depthLevels(format);
+    if (rounding == DepthRounding::driver) {
+        const Lanes<float, N> product = convertLanes<float>(z) * Lanes<float, N>(levels);
+        // Adding and subtracting 1.5 * 2^52 rounds to a whole number, ties to even.
+        const Wide toWhole(6755399441055744.0);
+        return convertLanes<int32_t>((convertLanes<double>(product) + toWhole) - toWhole);
+    }
+    RasterKernels<Wide> kernels;
+    return convertLanes<int32_t>(kernels.unormDepth(convertLanes<double>(z), Wide(levels)));
+}
+
+// The bias of rule 7 for a triangle record, in depth units; 0 for the default DepthBias.
+double depthBias(const DepthBias& bias, DepthFormat format, const TriangleRecord& record, int subpixelBits);
+
+}  // namespace etalon
