@@ -2,7 +2,7 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-set(etalon_installed_targets etalon_numeric_flags etalon_numeric etalon_raster etalon_lighting)
+set(etalon_installed_targets etalon_numeric_flags etalon_numeric etalon_truth etalon_raster etalon_lighting)
 set(etalon_installed_folders numeric raster lighting)
 if(ETALON_APP)
   list(APPEND etalon_installed_targets etalon_ar)

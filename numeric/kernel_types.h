@@ -29,6 +29,10 @@ struct NumberTraits<Lanes<S, N>> {
     using Integer = Lanes<int32_t, N>;
 };
 
+// atan2Of and powOf for a number type: numeric/elementary.h.
+template <class T>
+struct ElementaryFunctions;
+
 // Scalar instances of the lane-wise operations.
 inline float select(bool c, float a, float b) { return c ? a : b; }
 inline double select(bool c, double a, double b) { return c ? a : b; }
@@ -54,5 +58,26 @@ template <class S, int N>
 struct FromInteger<Lanes<S, N>> {
     static Lanes<S, N> of(Lanes<int32_t, N> a) { return convertLanes<S>(a); }
 };
+
+// The operations looked up where they are instantiated: kernel classes call these, so that they find the operations
+// of number types whose headers were included after them.
+namespace lookup {
+template <class C, class T>
+T selectOf(const C& c, const T& a, const T& b) {
+    return select(c, a, b);
+}
+template <class T>
+T squareRootOf(const T& a) {
+    return squareRoot(a);
+}
+template <class T>
+T wholeOf(const T& a) {
+    return floorOf(a);
+}
+template <class T>
+auto integerOf(const T& a) {
+    return toInteger(a);
+}
+}  // namespace lookup
 
 }  // namespace etalon

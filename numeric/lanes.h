@@ -46,8 +46,8 @@ struct Lanes {
     Vector v;
 
     Lanes() = default;
-    // The same value in each lane, rounded once to S.
-    explicit Lanes(double value) : v(Vector{} + static_cast<S>(value)) {}
+    // The same value in each lane, rounded once to S. x - 0 is x for every x; 0 + x would turn -0 into 0.
+    explicit Lanes(double value) : v(static_cast<S>(value) - Vector{}) {}
     explicit Lanes(Vector vector) : v(vector) {}
 
     // Lane i holds f(i).
@@ -72,6 +72,10 @@ struct Lanes {
     friend Lanes operator*(Lanes a, Lanes b) { return Lanes(a.v * b.v); }
     friend Lanes operator/(Lanes a, Lanes b) { return Lanes(a.v / b.v); }
     friend Lanes operator-(Lanes a) { return Lanes(-a.v); }
+
+    // Bits; S is an integer type.
+    friend Lanes operator&(Lanes a, Lanes b) { return Lanes(a.v & b.v); }
+    friend Lanes operator|(Lanes a, Lanes b) { return Lanes(a.v | b.v); }
 
     using M = Mask<S, N>;
     friend M operator<(Lanes a, Lanes b) { return M(a.v < b.v); }

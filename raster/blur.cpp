@@ -10,8 +10,6 @@ namespace etalon {
 
 namespace {
 
-// The double next to e.
-constexpr double kEuler = 0x1.5bf0a8b145769p+1;
 // Weights below are 0, see gaussianWeights.
 constexpr double kSmallestWeight = 0x1p-100;
 
@@ -23,7 +21,7 @@ std::vector<double> gaussianWeights(int radius, double sigma) {
     std::vector<double> weights;
     for (int k = 0; k <= radius; k++) {
         const double ratio = static_cast<double>(k) / sigma;
-        const double w = powOf(kEuler, -0.5 * (ratio * ratio));
+        const double w = expOf(-0.5 * (ratio * ratio));
         weights.push_back(w < kSmallestWeight ? 0.0 : w);
     }
     // The smallest first.

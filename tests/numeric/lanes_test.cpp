@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <vector>
 
 using namespace etalon;
@@ -11,6 +12,14 @@ TEST_CASE_TEMPLATE("SelectTakesEachLaneFromItsOwnSide", L, Lanes<float, 1>, Lane
     const L a = L::generate([](int i) { return i % 3 - 1; });
     const L r = select(a < L(0.0), L(7.0), a);
     for (int i = 0; i < L::size; i++) CHECK(r[i] == (i % 3 == 0 ? 7 : i % 3 - 1));
+}
+
+TEST_CASE("BroadcastKeepsTheSignOfZero") {
+    const Lanes<double, 4> d(-0.0);
+    const Lanes<float, 8> f(-0.0);
+    for (int i = 0; i < 4; i++) CHECK(std::signbit(d[i]));
+    for (int i = 0; i < 8; i++) CHECK(std::signbit(f[i]));
+    for (int i = 0; i < 4; i++) CHECK_FALSE(std::signbit(Lanes<double, 4>(0.0)[i]));
 }
 
 TEST_CASE("LaneGroupsCoverEveryItemOnceAndStoreNothingBehindTheTail") {

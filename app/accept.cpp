@@ -1,0 +1,45 @@
+#include <memory>
+
+#include "app/verbs.h"
+
+namespace etalon {
+namespace {
+
+struct AcceptOptions {
+    std::string pattern, reason, manifest = "golden/manifest.json";
+};
+
+ExitCode runAccept(const AcceptOptions& options, const GoldenSupport& support) {
+    GoldenManifest manifest = readManifest(options.manifest);
+    ProgressLine progress;
+    const auto accepted =
+        acceptGolden(manifest, options.pattern, options.reason, support.rulesVersion, support.render,
+                     [&](const std::string& name, size_t index, size_t count) {
+                         progress.show(fmt::format("[{}/{}] {}", index + 1, count, name));
+                     });
+    progress.finish();
+    if (accepted.empty()) {
+        fmt::print(stderr, "etalon: {}: nothing to check: no case matches \"{}\"\n", options.manifest,
+                   options.pattern);
+        return ExitCode::NothingToCheck;
+    }
+    std::string text;
+    for (const GoldenAcceptance& acceptance : accepted)
+        text += fmt::format("{}: {}\n", acceptance.changed ? "accepted" : "unchanged", acceptance.name);
+    printOut(text);
+    return ExitCode::Done;
+}
+
+}  // namespace
+
+void addAccept(CLI::App& app, ExitCode& exitCode, const GoldenSupport& support) {
+    const auto options = std::make_shared<AcceptOptions>();
+    CLI::App* verb =
+        app.add_subcommand("accept", "Render golden cases and make the result the accepted one.");
+    verb->add_option("PATTERN", options->pattern, "Names of cases: * ? [...]")->required();
+    verb->add_option("--reason", options->reason, "Why the images change; kept in the manifest")->required();
+    verb->add_option("--manifest", options->manifest, "Manifest of the golden images")->capture_default_str();
+    verb->callback([options, &exitCode, &support] { exitCode = runAccept(*options, support); });
+}
+
+}  // namespace etalon

@@ -1,0 +1,74 @@
+#include <memory>
+
+#include "app/report.h"
+#include "app/verbs.h"
+
+namespace etalon {
+namespace {
+
+struct CheckOptions {
+    std::string pattern = "*", manifest = "golden/manifest.json";
+    bool json = false;
+};
+
+std::string resultText(const GoldenManifest& manifest, const GoldenResult& result) {
+    std::string text = fmt::format("{}: {}", verdictName(result.verdict), result.name);
+    if (!result.message.empty()) text += ": " + result.message;
+    text += '\n';
+    if (result.comparison)
+        text +=
+            comparisonText(*result.comparison, manifest.resolve(result.name + ".exr").string(), "the render");
+    return text;
+}
+
+nlohmann::ordered_json resultJson(const GoldenResult& result) {
+    nlohmann::ordered_json json = {
+        {"name", result.name}, {"verdict", verdictName(result.verdict)}, {"message", result.message}};
+    if (result.comparison) json["comparison"] = comparisonJson(*result.comparison);
+    return json;
+}
+
+ExitCode runCheck(const CheckOptions& options, const GoldenSupport& support) {
+    const GoldenManifest manifest = readManifest(options.manifest);
+    ProgressLine progress;
+    const auto results = checkGolden(manifest, options.pattern, support.rulesVersion, support.render,
+                                     [&](const std::string& name, size_t index, size_t count) {
+                                         progress.show(fmt::format("[{}/{}] {}", index + 1, count, name));
+                                     });
+    progress.finish();
+    size_t same = 0;
+    bool failed = false;
+    std::string text;
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (const GoldenResult& result : results) {
+        same += result.verdict == GoldenVerdict::Same ? 1 : 0;
+        failed = failed || result.verdict == GoldenVerdict::Failed;
+        text += resultText(manifest, result);
+        list.push_back(resultJson(result));
+    }
+    text += fmt::format("{} of {} golden images are the same\n", same, results.size());
+    printOut(options.json ? jsonText({{"checked", results.size()}, {"same", same}, {"results", list}})
+                          : text);
+    if (results.empty()) {
+        fmt::print(stderr, "etalon: {}: nothing to check: no case matches \"{}\"\n", options.manifest,
+                   options.pattern);
+        return ExitCode::NothingToCheck;
+    }
+    if (failed) return ExitCode::BadInput;
+    return same == results.size() ? ExitCode::Done : ExitCode::Difference;
+}
+
+}  // namespace
+
+void addCheck(CLI::App& app, ExitCode& exitCode, const GoldenSupport& support) {
+    const auto options = std::make_shared<CheckOptions>();
+    CLI::App* verb = app.add_subcommand(
+        "check",
+        "Render the golden cases and compare them to the bit; writes nothing. Exit 1 if one differs.");
+    verb->add_option("PATTERN", options->pattern, "Names of cases: * ? [...]")->capture_default_str();
+    verb->add_option("--manifest", options->manifest, "Manifest of the golden images")->capture_default_str();
+    verb->add_flag("--json", options->json, "Report as JSON");
+    verb->callback([options, &exitCode, &support] { exitCode = runCheck(*options, support); });
+}
+
+}  // namespace etalon

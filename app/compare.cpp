@@ -1,0 +1,63 @@
+#include "ar/compare.h"
+
+#include <memory>
+
+#include "app/report.h"
+#include "app/verbs.h"
+#include "ar/image_io.h"
+
+namespace etalon {
+namespace {
+
+struct CompareOptions {
+    std::string a, b, errorImage;
+    bool json = false, bits = false;
+    int maxWorst = 5;
+};
+
+// The error image must not replace what was compared.
+void checkErrorPath(const CompareOptions& options) {
+    if (std::filesystem::path(options.errorImage).extension() != ".exr")
+        throw InputError(fmt::format("{}: the error image is an EXR file; name it .exr", options.errorImage));
+    for (const std::string& input : {options.a, options.b}) {
+        std::error_code error;
+        if (std::filesystem::equivalent(options.errorImage, input, error))
+            throw InputError(
+                fmt::format("{}: the error image would replace a compared image", options.errorImage));
+    }
+}
+
+ExitCode runCompare(const CompareOptions& options) {
+    const bool wantsError = !options.errorImage.empty();
+    if (wantsError) checkErrorPath(options);
+    const Frame a = readFrame(options.a), b = readFrame(options.b);
+    const Comparison comparison = compareFrames(a, b, options.maxWorst);
+    if (wantsError && !comparison.channels.empty()) writeExr(errorFrame(a, b), options.errorImage);
+    printOut(options.json ? jsonText(comparisonJson(comparison))
+                          : comparisonText(comparison, options.a, options.b));
+    if (wantsError && comparison.channels.empty())
+        fmt::print(stderr, "etalon: {}: not written: the images share no channel of one size and type\n",
+                   options.errorImage);
+    return (options.bits ? comparison.identical() : comparison.equal()) ? ExitCode::Done
+                                                                        : ExitCode::Difference;
+}
+
+}  // namespace
+
+void addCompare(CLI::App& app, ExitCode& exitCode) {
+    const auto options = std::make_shared<CompareOptions>();
+    CLI::App* verb = app.add_subcommand(
+        "compare",
+        "Compare two images: shape, NaN and infinity positions, distances. Exit 1 if they differ.");
+    verb->add_option("A", options->a, "Image file")->required();
+    verb->add_option("B", options->b, "Image file")->required();
+    verb->add_flag("--json", options->json, "Report as JSON");
+    verb->add_flag("--bits", options->bits, "Signs of zeros and payloads of NaN count as differences");
+    verb->add_option("--error-image", options->errorImage, "Write |B - A| of every channel to this EXR file");
+    verb->add_option("--max-worst", options->maxWorst, "Worst samples to list per channel")
+        ->check(CLI::Range(0, 10000))
+        ->capture_default_str();
+    verb->callback([options, &exitCode] { exitCode = runCompare(*options); });
+}
+
+}  // namespace etalon

@@ -1,0 +1,133 @@
+#include "app/report.h"
+
+#include <fmt/ranges.h>
+
+#include <bit>
+#include <iterator>
+
+namespace etalon {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json numberJson(double value) {
+    if (value != value) return "nan";
+    if (value - value != 0) return value > 0 ? "inf" : "-inf";
+    return value;
+}
+
+std::string ulpText(uint64_t ulp) {
+    return ulp == kIncomparableUlp ? "incomparable" : fmt::format("{} ulp", ulp);
+}
+
+// "3-4" for the bucket of the distances 3 and 4.
+std::string bucketText(int bucket) {
+    const uint64_t end = ulpBucketEnd(bucket), begin = bucket < 2 ? end : ulpBucketEnd(bucket - 1) + 1;
+    return begin == end ? fmt::format("{}", end) : fmt::format("{}-{}", begin, end);
+}
+
+void appendChannel(std::string& text, const ChannelComparison& channel) {
+    auto out = std::back_inserter(text);
+    if (channel.identical()) {
+        fmt::format_to(out, "  {}: identical\n", channel.name);
+        return;
+    }
+    fmt::format_to(out, "  {}: {} of {} samples differ ({:.4g} %)", channel.name, channel.differing,
+                   channel.samples, 100 * channel.fractionDiffering());
+    const auto count = [&](uint64_t number, const char* what) {
+        if (number > 0) fmt::format_to(out, ", {} {}", number, what);
+    };
+    count(channel.nanMismatches, "NaN in one only");
+    count(channel.infinityMismatches, "infinity mismatches");
+    count(channel.signedZeros, "zeros of other sign");
+    count(channel.nanPayloads, "NaN of other bits");
+    text += '\n';
+    if (channel.differing == 0) return;
+    fmt::format_to(
+        out, "    ulp max {} mean {:.4g}; absolute max {:.6g} mean {:.4g}; relative max {:.6g} mean {:.4g}\n",
+        channel.maxUlp, channel.meanUlp, channel.maxAbsolute, channel.meanAbsolute, channel.maxRelative,
+        channel.meanRelative);
+    fmt::format_to(out, "    rmse {:.6g}, bias {:.6g}\n    samples by ulp:", channel.rmse, channel.bias);
+    for (int bucket = 0; bucket < kUlpBuckets; ++bucket)
+        if (const uint64_t number = channel.ulpHistogram[static_cast<size_t>(bucket)]; number > 0)
+            fmt::format_to(out, "  {}: {}", bucketText(bucket), number);
+    text += '\n';
+    for (const WorstPixel& pixel : channel.worst)
+        fmt::format_to(out, "    ({}, {}): {:.9g} against {:.9g}, {}\n", pixel.x, pixel.y, pixel.a, pixel.b,
+                       ulpText(pixel.ulp));
+}
+
+Json channelJson(const ChannelComparison& channel) {
+    Json histogram = Json::array(), worst = Json::array();
+    for (int bucket = 0; bucket < kUlpBuckets; ++bucket)
+        if (const uint64_t number = channel.ulpHistogram[static_cast<size_t>(bucket)]; number > 0)
+            histogram.push_back({{"up_to_ulp", ulpBucketEnd(bucket)}, {"samples", number}});
+    for (const WorstPixel& pixel : channel.worst)
+        worst.push_back({{"x", pixel.x},
+                         {"y", pixel.y},
+                         {"a", numberJson(pixel.a)},
+                         {"b", numberJson(pixel.b)},
+                         {"ulp", pixel.ulp == kIncomparableUlp ? Json(nullptr) : Json(pixel.ulp)}});
+    return {{"name", channel.name},
+            {"equal", channel.equal()},
+            {"identical", channel.identical()},
+            {"samples", channel.samples},
+            {"differing", channel.differing},
+            {"fraction_differing", channel.fractionDiffering()},
+            {"nan_mismatches", channel.nanMismatches},
+            {"infinity_mismatches", channel.infinityMismatches},
+            {"signed_zeros", channel.signedZeros},
+            {"nan_payloads", channel.nanPayloads},
+            {"finite", channel.finite},
+            {"max_ulp", channel.maxUlp},
+            {"mean_ulp", channel.meanUlp},
+            {"max_absolute", channel.maxAbsolute},
+            {"mean_absolute", channel.meanAbsolute},
+            {"max_relative", channel.maxRelative},
+            {"mean_relative", channel.meanRelative},
+            {"rmse", channel.rmse},
+            {"bias", channel.bias},
+            {"ulp_histogram", histogram},
+            {"worst", worst}};
+}
+
+}  // namespace
+
+std::string comparisonText(const Comparison& comparison, const std::string& a, const std::string& b) {
+    std::string text;
+    auto out = std::back_inserter(text);
+    const char* verdict = comparison.identical() ? "identical"
+                          : comparison.equal()   ? "equal in value, not in bits"
+                                                 : "different";
+    fmt::format_to(out, "{}: {} against {}\n", verdict, a, b);
+    if (comparison.widthA != comparison.widthB || comparison.heightA != comparison.heightB)
+        fmt::format_to(out, "  size: {}x{} against {}x{}\n", comparison.widthA, comparison.heightA,
+                       comparison.widthB, comparison.heightB);
+    const auto list = [&](const std::vector<std::string>& names, const std::string& what) {
+        if (!names.empty()) fmt::format_to(out, "  channels {}: {}\n", what, fmt::join(names, ", "));
+    };
+    list(comparison.onlyInA, "only in " + a);
+    list(comparison.onlyInB, "only in " + b);
+    list(comparison.otherType, "of other type");
+    for (const ChannelComparison& channel : comparison.channels) appendChannel(text, channel);
+    return text;
+}
+
+Json comparisonJson(const Comparison& comparison) {
+    Json channels = Json::array();
+    for (const ChannelComparison& channel : comparison.channels) channels.push_back(channelJson(channel));
+    return {{"equal", comparison.equal()},
+            {"identical", comparison.identical()},
+            {"size_a", {comparison.widthA, comparison.heightA}},
+            {"size_b", {comparison.widthB, comparison.heightB}},
+            {"only_in_a", comparison.onlyInA},
+            {"only_in_b", comparison.onlyInB},
+            {"other_type", comparison.otherType},
+            {"channels", channels}};
+}
+
+std::string jsonText(const Json& json) {
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace etalon

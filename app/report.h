@@ -1,0 +1,21 @@
+// A comparison as text for people and as JSON for machines.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "ar/compare.h"
+
+namespace etalon {
+
+// Several lines; the first says the verdict. a and b are named as given.
+std::string comparisonText(const Comparison& comparison, const std::string& a, const std::string& b);
+
+// An object; the keys are those of the structures in ar/compare.h in snake case. Infinities and NaN, which
+// JSON has not, are the texts "inf", "-inf" and "nan"; the ULP distance of incomparable samples is null.
+nlohmann::ordered_json comparisonJson(const Comparison& comparison);
+
+// A document of the command for --json: indented, ends with a line break; text that is no UTF-8 is replaced.
+std::string jsonText(const nlohmann::ordered_json& json);
+
+}  // namespace etalon

@@ -1,0 +1,56 @@
+// The verbs of the etalon command, and what they share.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "ar/golden.h"
+
+namespace etalon {
+
+// The exit codes of the command.
+enum class ExitCode : int {
+    Done = 0,
+    Difference = 1,
+    BadInput = 2,  // of a file or of the command line
+    NothingToCheck = 3,
+};
+
+// How check and accept render their cases.
+struct GoldenSupport {
+    GoldenRenderer render;
+    std::string rulesVersion;
+};
+
+// Each adds one verb to the command, which when chosen runs inside app.parse() and sets the exit code. Errors
+// are InputError. `exitCode` and what `support` refers to must outlive the parse.
+void addRender(CLI::App& app, ExitCode& exitCode);
+void addPlan(CLI::App& app, ExitCode& exitCode);
+void addCompare(CLI::App& app, ExitCode& exitCode);
+void addCheck(CLI::App& app, ExitCode& exitCode, const GoldenSupport& support);
+void addAccept(CLI::App& app, ExitCode& exitCode, const GoldenSupport& support);
+
+// Settings of the command itself: name, --version, exactly one verb, unknown options are errors.
+void configureCommand(CLI::App& app);
+
+// Parses and runs. Whatever goes wrong is one line on standard error, "etalon: reason", and BadInput.
+ExitCode runCommand(CLI::App& app, const ExitCode& exitCode, int argc, const char* const* argv);
+
+// Writes to standard output; InputError if that fails (a full disk behind a redirection).
+void printOut(const std::string& text);
+
+// Shows on standard error which case runs, if that is a terminal; a later call or finish() replaces it.
+class ProgressLine {
+  public:
+    ProgressLine();
+    ~ProgressLine() { finish(); }
+    ProgressLine(const ProgressLine&) = delete;
+    ProgressLine& operator=(const ProgressLine&) = delete;
+    void show(const std::string& text);
+    void finish();
+
+  private:
+    bool terminal_, shown_ = false;
+};
+
+}  // namespace etalon

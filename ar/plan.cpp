@@ -1,0 +1,245 @@
+#include "ar/plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace etalon {
+namespace {
+
+constexpr std::string_view kComponentNames[kRadianceComponents] = {"ambient", "diffuse", "specular", "mirror",
+                                                                   "background"};
+constexpr int kFacesPerCube = 6;
+
+bool isFinitePositive(const glm::dvec3& v) { return v.x > 0 || v.y > 0 || v.z > 0; }
+
+// Collects the passes; every decision is made here, once, with its reason.
+class Planner {
+  public:
+    Planner(const Scene& scene, const PlanRequest& request, const VisibilityFacts* facts)
+        : scene_(scene), facts_(facts), objects_(planObjects(scene)) {
+        outputs_ = request.outputs.empty() ? scene.output.images : request.outputs;
+        plan_.toneMap = request.png;
+    }
+
+    Plan run() {
+        planVisibility();
+        for (int c = 0; c < kRadianceComponents; c++) planComponent(static_cast<ShadeOutput>(c));
+        planCubes();
+        planEnvironment();
+        planSurfaceImages();
+        planBeauty();
+        plan_.memory_bytes = memory();
+        return std::move(plan_);
+    }
+
+  private:
+    bool asked(std::string_view output) const {
+        return std::find(outputs_.begin(), outputs_.end(), output) != outputs_.end();
+    }
+    bool visible(size_t object) const { return facts_ == nullptr || facts_->objectVisible[object]; }
+    bool anyVisible(auto&& has) const {
+        for (size_t i = 0; i < objects_.size(); i++)
+            if (visible(i) && has(*objects_[i].material)) return true;
+        return false;
+    }
+    bool any(auto&& has) const {
+        for (const PlanObject& object : objects_)
+            if (has(*object.material)) return true;
+        return false;
+    }
+    void add(std::string name, bool runs, std::string reason, std::vector<std::string> needs = {}) {
+        plan_.passes.push_back({std::move(name), runs, std::move(reason), std::move(needs)});
+    }
+
+    void planVisibility() {
+        std::vector<std::string> needs;
+        if (objects_.empty()) add("geometry", false, "the scene has no meshes and no planes");
+        else add("geometry", true, fmt::format("{} objects to place", objects_.size()));
+        if (!objects_.empty()) needs.push_back("geometry");
+        add("visibility", true, "every output is of what is visible", needs);
+        plan_.depth = asked("depth");
+        plan_.ids = asked("ids");
+        plan_.coverage = asked("coverage");
+        for (const auto& [name, runs] : {std::pair("depth", plan_.depth), std::pair("ids", plan_.ids),
+                                         std::pair("coverage", plan_.coverage)})
+            add(name, runs, runs ? "output asked for" : "not an output", {"visibility"});
+    }
+
+    // Why a radiance component is zero everywhere, or empty when it may not be.
+    std::string whyNothing(ShadeOutput component) const {
+        const auto isDiffuse = [](const Material& m) { return m.kind != MaterialKind::mirror; };
+        const auto isGlossy = [](const Material& m) { return m.kind == MaterialKind::blinnPhong; };
+        const auto isMirror = [](const Material& m) { return m.kind == MaterialKind::mirror; };
+        const auto missing = [&](auto&& has, std::string_view what) -> std::string {
+            if (!any(has)) return fmt::format("no {} in the scene", what);
+            if (!anyVisible(has)) return fmt::format("no {} is visible", what);
+            return {};
+        };
+        switch (component) {
+            case ShadeOutput::ambient:
+                if (!isFinitePositive(scene_.ambient)) return "ambient is 0";
+                return missing(isDiffuse, "diffuse surface");
+            case ShadeOutput::diffuse:
+                if (scene_.lights.empty()) return "no lights in the scene";
+                return missing(isDiffuse, "diffuse surface");
+            case ShadeOutput::specular:
+                if (scene_.lights.empty()) return "no lights in the scene";
+                return missing(isGlossy, "blinn_phong surface");
+            case ShadeOutput::mirror: return missing(isMirror, "mirror");
+            default:
+                if (scene_.environment.kind == EnvironmentKind::none) return "no environment in the scene";
+                if (facts_ && !facts_->backgroundVisible) return "objects cover every pixel";
+                return {};
+        }
+    }
+
+    void planComponent(ShadeOutput component) {
+        const std::string name(kComponentNames[static_cast<size_t>(component)]);
+        const bool output = asked(name), beauty = asked("beauty") || plan_.toneMap;
+        const std::string nothing = whyNothing(component);
+        if (!output && !beauty) add(name, false, "no output shows it", {"visibility"});
+        else if (!nothing.empty()) add(name, false, nothing, {"visibility"});
+        else add(name, true, output ? "output asked for" : "part of the beauty", {"visibility"});
+        plan_.request[component] = output;
+    }
+    bool runs(std::string_view name) const { return plan_.find(name)->runs; }
+    void addNeed(std::string_view pass, std::string need) {
+        for (PlanPass& p : plan_.passes)
+            if (p.name == pass) p.needs.push_back(std::move(need));
+    }
+
+    // A cube map of the scene for each visible mirror that asks for one.
+    void planCubes() {
+        plan_.objectCube.assign(objects_.size(), false);
+        for (size_t i = 0; i < objects_.size(); i++) {
+            const PlanObject& object = objects_[i];
+            if (!object.isMesh || object.material->kind != MaterialKind::mirror ||
+                scene_.meshes[object.index].reflection != Reflection::scene)
+                continue;
+            const std::string name = "cube map of " + object.name;
+            if (!runs("mirror")) {
+                add(name, false, "the mirror pass does not run");
+                continue;
+            }
+            plan_.objectCube[i] = visible(i);
+            add(name, visible(i), visible(i) ? "a visible mirror reflects the scene" : "its mirror is not visible",
+                {"geometry"});
+            if (visible(i)) addNeed("mirror", name);
+        }
+    }
+
+    bool anyCube() const {
+        return std::find(plan_.objectCube.begin(), plan_.objectCube.end(), true) != plan_.objectCube.end();
+    }
+    // A mirror looks into the environment: a visible one directly, or any other inside a cube map.
+    bool mirrorSeesEnvironment() const {
+        if (!runs("mirror")) return false;
+        for (size_t i = 0; i < objects_.size(); i++)
+            if (objects_[i].material->kind == MaterialKind::mirror && !plan_.objectCube[i] && (visible(i) || anyCube()))
+                return true;
+        return false;
+    }
+
+    void planEnvironment() {
+        const bool isFile = scene_.environment.kind == EnvironmentKind::file;
+        plan_.environmentCube = isFile && mirrorSeesEnvironment();
+        plan_.readEnvironment = isFile && (plan_.environmentCube || runs("background") || anyCube());
+        if (!isFile) {
+            add("environment image", false, "the environment is not an image");
+        } else if (plan_.readEnvironment) {
+            add("environment image", true,
+                runs("background") ? "the background shows it" : "a mirror reflects it");
+        } else {
+            add("environment image", false, "neither the background nor a mirror shows it");
+        }
+        add("environment cube map", plan_.environmentCube,
+            plan_.environmentCube ? "a mirror reflects the environment"
+            : isFile              ? "no mirror that runs reflects the environment"
+                                  : "the environment is not an image",
+            {"environment image"});
+        if (plan_.readEnvironment && runs("background")) addNeed("background", "environment image");
+        if (plan_.environmentCube) addNeed("mirror", "environment cube map");
+        if (!plan_.readEnvironment) return;
+        for (size_t i = 0; i < objects_.size(); i++)
+            if (plan_.objectCube[i]) addNeed("cube map of " + objects_[i].name, "environment image");
+    }
+
+    void planSurfaceImages() {
+        for (const auto& [name, output] :
+             {std::pair("normals", ShadeOutput::normals), std::pair("distance", ShadeOutput::distance)}) {
+            plan_.request[output] = asked(name);
+            add(name, asked(name), asked(name) ? "output asked for" : "not an output", {"visibility"});
+        }
+    }
+
+    void planBeauty() {
+        const bool beauty = asked("beauty") || plan_.toneMap;
+        plan_.request[ShadeOutput::beauty] = beauty;
+        std::vector<std::string> needs;
+        for (const std::string_view component : kComponentNames)
+            if (beauty && runs(component)) needs.emplace_back(component);
+        add("beauty", beauty,
+            asked("beauty")  ? "output asked for"
+            : plan_.toneMap ? "the PNG shows it"
+                             : "not an output",
+            needs);
+        add("tone mapping", plan_.toneMap, plan_.toneMap ? "a PNG is written" : "no PNG is written", {"beauty"});
+    }
+
+    // Bytes of the largest buffers that live at one time.
+    uint64_t memory() const {
+        constexpr uint64_t kBytesPerSample = 4 + 4 + 1;  // depth, id, stencil
+        constexpr uint64_t kBytesPerFloat = 4;
+        const uint64_t pixels =
+            static_cast<uint64_t>(scene_.camera.width) * static_cast<uint64_t>(scene_.camera.height);
+        uint64_t floats = 0;
+        for (int o = 0; o < kShadeOutputs; o++)
+            if (plan_.request.wanted[o]) floats += static_cast<ShadeOutput>(o) == ShadeOutput::distance ? 1 : 3;
+        floats += (plan_.depth ? 1u : 0u) + (plan_.ids ? 2u : 0u) + (plan_.coverage ? 1u : 0u);
+        // The images, and once more as the channels that are written.
+        uint64_t bytes = pixels * (static_cast<uint64_t>(scene_.render.samples) * kBytesPerSample +
+                                   2 * floats * kBytesPerFloat);
+        for (size_t i = 0; i < objects_.size(); i++) {
+            if (!plan_.objectCube[i]) continue;
+            const auto size = static_cast<uint64_t>(scene_.meshes[objects_[i].index].cubeSize);
+            bytes += kFacesPerCube * size * size * 4 * kBytesPerFloat;
+        }
+        return bytes;
+    }
+
+    const Scene& scene_;
+    const VisibilityFacts* facts_;
+    std::vector<PlanObject> objects_;
+    std::vector<std::string> outputs_;
+    Plan plan_;
+};
+
+}  // namespace
+
+std::vector<PlanObject> planObjects(const Scene& scene) {
+    std::vector<PlanObject> objects;
+    for (size_t m = 0; m < scene.meshes.size(); m++) {
+        const MeshObject& mesh = scene.meshes[m];
+        for (size_t p = 0; p < mesh.objectToWorld.size(); p++) {
+            const std::string name =
+                mesh.objectToWorld.size() == 1 ? mesh.name : fmt::format("{}[{}]", mesh.name, p);
+            objects.push_back({name, true, m, p, &scene.materials[mesh.material]});
+        }
+    }
+    for (size_t p = 0; p < scene.planes.size(); p++)
+        objects.push_back({scene.planes[p].name, false, p, 0, &scene.materials[scene.planes[p].material]});
+    return objects;
+}
+
+const PlanPass* Plan::find(std::string_view name) const {
+    for (const PlanPass& pass : passes)
+        if (pass.name == name) return &pass;
+    return nullptr;
+}
+
+Plan makePlan(const Scene& scene, const PlanRequest& request, const VisibilityFacts* facts) {
+    return Planner(scene, request, facts).run();
+}
+
+}  // namespace etalon

@@ -1,0 +1,50 @@
+// The plan as text, JSON and a graph.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "ar/plan.h"
+
+namespace etalon {
+
+std::string planText(const Plan& plan) {
+    size_t widest = 0;
+    for (const PlanPass& pass : plan.passes) widest = std::max(widest, pass.name.size());
+    std::string text;
+    for (const PlanPass& pass : plan.passes)
+        text += fmt::format("{}  {:<{}}  {}\n", pass.runs ? "run " : "skip", pass.name, widest, pass.reason);
+    text += fmt::format("memory: {:.1f} MiB at most for targets and images\n",
+                        static_cast<double>(plan.memory_bytes) / (1 << 20));
+    return text;
+}
+
+std::string planJson(const Plan& plan) {
+    nlohmann::ordered_json passes = nlohmann::ordered_json::array();
+    for (const PlanPass& pass : plan.passes)
+        passes.push_back({{"name", pass.name}, {"runs", pass.runs}, {"reason", pass.reason}, {"needs", pass.needs}});
+    const nlohmann::ordered_json json = {{"passes", passes}, {"memory_bytes", plan.memory_bytes}};
+    return json.dump(2) + "\n";
+}
+
+std::string planDot(const Plan& plan) {
+    const auto quoted = [](const std::string& name) {
+        std::string text = "\"";
+        for (char c : name) {
+            if (c == '"' || c == '\\') text += '\\';
+            text += c;
+        }
+        return text + '"';
+    };
+    std::string text = "digraph plan {\n  rankdir=LR;\n  node [shape=box];\n";
+    for (const PlanPass& pass : plan.passes)
+        text += fmt::format("  {} [tooltip={}{}];\n", quoted(pass.name), quoted(pass.reason),
+                            pass.runs ? "" : ", style=dashed, fontcolor=gray50");
+    for (const PlanPass& pass : plan.passes)
+        for (const std::string& need : pass.needs)
+            text += fmt::format("  {} -> {}{};\n", quoted(need), quoted(pass.name),
+                                pass.runs ? "" : " [style=dashed, color=gray50]");
+    return text + "}\n";
+}
+
+}  // namespace etalon

@@ -1,0 +1,149 @@
+// A scene as plain data: what docs/scene_format.md describes, checked and with defaults filled in.
+// Right-handed, +Y up, metres, linear Rec.709. Lines are those of the scene file, for messages of later
+// stages (where()).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace etalon {
+
+// Largest magnitude of a length, coordinate, radiance or irradiance in a scene: products of three stay finite
+// in float.
+inline constexpr double kMaxSceneNumber = 1e9;
+// Smallest length of a vector that stands for a direction.
+inline constexpr double kMinDirectionLength = 1e-9;
+// Largest Blinn-Phong exponent.
+inline constexpr double kMaxExponent = 4096;
+// Largest magnitude of the exposure, in stops: factors of 2^+-32.
+inline constexpr double kMaxExposure = 32;
+// Largest edge of a reflection cube map, in texels (six faces of float RGB: 4.5 GiB).
+inline constexpr int kMaxCubeSize = 8192;
+
+// Names that a scene file may use (docs/scene_format.md says what each means).
+inline constexpr std::array<std::string_view, 11> kOutputNames{"beauty", "depth",      "distance", "normals",
+                                                               "ids",    "coverage",   "diffuse",  "specular",
+                                                               "mirror", "background", "ambient"};
+inline constexpr std::array<std::string_view, 3> kToneMapNames{"linear", "reinhard", "filmic"};
+inline constexpr std::array<std::string_view, 10> kProfileNames{
+    "truth", "f64", "f32", "d3d11", "vulkan-min", "nv40-fp32", "nv40-fp16", "r300-fp24", "fp16", "bf16"};
+
+// A pinhole camera, in pixels: a point (x, y, -z) of the camera's frame, z > 0, falls on the image at
+// (cx + fx x / z, cy - fy y / z); pixel centres at +0.5, row 0 on top. fx, fy > 0.
+struct Intrinsics {
+    double fx = 0, fy = 0, cx = 0, cy = 0;
+};
+
+struct Camera {
+    int line = 0;
+    int width = 0, height = 0;  // pixels, 1 to kMaxImageSize
+    Intrinsics intrinsics;
+    double near = 0, far = 0;       // metres along -Z, 0 < near < far
+    glm::dmat4 cameraToWorld{1.0};  // rotation and translation; the camera looks along its -Z
+};
+
+enum class EnvironmentKind : uint8_t { none, constant, file };
+
+// Radiance that comes from far away. none is black. file: the image's radiance times `intensity`, turned by
+// `rotation_deg` counter-clockwise about +Y (seen from above).
+struct Environment {
+    int line = 0;
+    EnvironmentKind kind = EnvironmentKind::none;
+    glm::dvec3 constant{0.0};    // kind constant: radiance
+    std::filesystem::path file;  // kind file: resolved against the scene file's folder
+    double intensity = 1;        // > 0
+    double rotation_deg = 0;
+};
+
+enum class MaterialKind : uint8_t { lambert, blinnPhong, mirror };
+
+// Squares of edge size_m on a plane, counted from its point along its u and v axes: where
+// floor(u / size) + floor(v / size) is odd, `diffuse` replaces the material's.
+struct Checker {
+    glm::dvec3 diffuse{0.0};
+    double size_m = 1;
+};
+
+// Reflectances in [0, 1]. lambert: diffuse; blinnPhong: diffuse, specular, exponent in [1, kMaxExponent];
+// mirror: reflectance.
+struct Material {
+    int line = 0;
+    std::string name;
+    MaterialKind kind = MaterialKind::lambert;
+    glm::dvec3 diffuse{0.0}, specular{0.0}, reflectance{0.0};
+    double exponent = 1;
+    std::optional<Checker> checker;  // only on planes
+};
+
+// What a mirror shows: the environment alone, or a cube map of the scene rendered from the object's centre.
+enum class Reflection : uint8_t { environment, scene };
+
+// A mesh file placed once or more. objectToWorld holds at least one affine matrix (last row 0 0 0 1), none
+// singular; a negative determinant turns the winding round (transform.h).
+struct MeshObject {
+    int line = 0, fileLine = 0;
+    std::string name;
+    std::filesystem::path file;  // resolved against the scene file's folder
+    size_t material = 0;         // index into Scene::materials
+    std::vector<glm::dmat4> objectToWorld;
+    Reflection reflection = Reflection::environment;  // for a mirror
+    int cubeSize = 256;                               // texels, for Reflection::scene
+};
+
+// A rectangle about `point`: point + a u + b v, |a| <= size.x / 2, |b| <= size.y / 2; u, v, normal are unit,
+// perpendicular and right-handed (u cross v = normal). Seen from the side that the normal points to.
+struct Plane {
+    int line = 0;
+    std::string name;
+    glm::dvec3 point{0.0}, normal{0, 1, 0}, u{1, 0, 0}, v{0, 0, -1};
+    glm::dvec2 size_m{1.0};
+    size_t material = 0;
+};
+
+// Light from infinitely far. direction: unit, the way the light travels. irradiance: W/m^2 on a surface
+// perpendicular to it.
+struct DirectionalLight {
+    int line = 0;
+    glm::dvec3 direction{0, -1, 0};
+    glm::dvec3 irradiance{0.0};
+};
+
+struct Output {
+    int line = 0;
+    std::vector<std::string> images;  // of kOutputNames, each once, at least one
+    std::string toneMap = "linear";   // of kToneMapNames; for PNG
+    double exposure = 0;              // stops; for PNG
+};
+
+struct Render {
+    int line = 0;
+    int samples = 1;              // per pixel: 1, 4 or 16
+    std::string profile = "f32";  // of kProfileNames
+    uint64_t seed = 0;
+};
+
+struct Scene {
+    std::filesystem::path file;
+    Camera camera;
+    Environment environment;
+    glm::dvec3 ambient{0.0};          // radiance from everywhere, seen by diffuse surfaces only
+    std::vector<Material> materials;  // in the order of their names
+    std::vector<MeshObject> meshes;
+    std::vector<Plane> planes;
+    std::vector<DirectionalLight> lights;
+    Output output;
+    Render render;
+};
+
+// "file:line", the place of a part of the scene, for messages; "file" when the line is 0.
+std::string where(const Scene& scene, int line);
+
+}  // namespace etalon

@@ -1,0 +1,134 @@
+// The camera, the environment and the lights of a scene file.
+#include <fmt/format.h>
+
+#include "ar/scene_parts.h"
+#include "ar/transform.h"
+#include "raster/image.h"
+
+namespace etalon {
+
+namespace {
+
+// How far the columns of a pose may be from unit length and right angles: a pose written with six digits
+// passes.
+constexpr double kRigidTolerance = 1e-5;
+// Smallest sine of the angle between `up` and the view.
+constexpr double kMinUpSine = 1e-6;
+
+bool near(double a, double b) { return a - b <= kRigidTolerance && b - a <= kRigidTolerance; }
+
+// cameraToWorld from a matrix; it must be a rotation and a translation.
+glm::dmat4 poseFromMatrix(const TableReader& reader) {
+    constexpr const char* kReason = "cannot stand beside 'camera_to_world'";
+    for (const char* key : {"position", "look_at", "up"}) reader.forbid(key, kReason);
+    const glm::dmat4 m = reader.matrix("camera_to_world");
+    const glm::dvec3 x(m[0]), y(m[1]), z(m[2]);
+    const bool rigid = near(dotOf(x, x), 1) && near(dotOf(y, y), 1) && near(dotOf(z, z), 1) &&
+                       near(dotOf(x, y), 0) && near(dotOf(y, z), 0) && near(dotOf(z, x), 0);
+    if (!rigid)
+        reader.failKey("camera_to_world",
+                       fmt::format("must be a rotation and a translation: columns of length 1 "
+                                   "at right angles, to within {}",
+                                   kRigidTolerance));
+    if (determinant3(m) < 0)
+        reader.failKey("camera_to_world",
+                       "must be a rotation and a translation: it mirrors (determinant -1)");
+    return orthonormalised(m);
+}
+
+glm::dmat4 poseFromTarget(const TableReader& reader) {
+    const glm::dvec3 position = reader.triple("position", kCoordinateRange);
+    const glm::dvec3 target = reader.triple("look_at", kCoordinateRange);
+    const glm::dvec3 view(target.x - position.x, target.y - position.y, target.z - position.z);
+    if (lengthOf(view) < kMinDirectionLength)
+        reader.failKey("look_at", fmt::format("must differ from 'position' (distance at least {} m)",
+                                              kMinDirectionLength));
+    const glm::dvec3 up = reader.has("up") ? reader.direction("up") : glm::dvec3(0, 1, 0);
+    if (lengthOf(crossOf(unitOf(up), unitOf(view))) < kMinUpSine)
+        reader.failKey("up", reader.has("up")
+                                 ? "must not be parallel to the view from 'position' to 'look_at'"
+                                 : "is needed: the default 0 1 0 is parallel to the view");
+    return lookAt(position, target, up);
+}
+
+Intrinsics readIntrinsics(const TableReader& reader, int width, int height) {
+    Intrinsics k;
+    if (reader.has("fov_y_deg")) {
+        for (const char* key : {"fx", "fy", "cx", "cy"})
+            reader.forbid(key, "cannot stand beside 'fov_y_deg'");
+        const double fov_deg = reader.number("fov_y_deg", {0, 180, true, true});
+        const SinCos half = sinCosOfDegrees(fov_deg / 2);
+        // f = (height / 2) / tan(fov / 2)
+        k.fy = height * 0.5 * half.cos / half.sin;
+        if (!(k.fy >= 1 / kMaxSceneNumber && k.fy <= kMaxSceneNumber))
+            reader.failKey("fov_y_deg",
+                           fmt::format("of {} makes a focal length of {} px; allowed are {} to {}", fov_deg,
+                                       k.fy, 1 / kMaxSceneNumber, kMaxSceneNumber));
+        k.fx = k.fy;
+        k.cx = width * 0.5;
+        k.cy = height * 0.5;
+        return k;
+    }
+    if (!reader.has("fx") && !reader.has("fy") && !reader.has("cx") && !reader.has("cy"))
+        reader.fail(reader.line(), "missing key 'fov_y_deg' (or 'fx', 'fy', 'cx', 'cy') in [camera]");
+    k.fx = reader.number("fx", {1 / kMaxSceneNumber, kMaxSceneNumber});
+    k.fy = reader.number("fy", {1 / kMaxSceneNumber, kMaxSceneNumber});
+    k.cx = reader.number("cx", kCoordinateRange);
+    k.cy = reader.number("cy", kCoordinateRange);
+    return k;
+}
+
+}  // namespace
+
+Camera readCamera(const std::string& file, const TomlValue& value) {
+    const TableReader reader(file, value, "[camera]",
+                             {"width", "height", "fov_y_deg", "fx", "fy", "cx", "cy", "near", "far",
+                              "position", "look_at", "up", "camera_to_world"});
+    Camera camera;
+    camera.line = reader.line();
+    camera.width = static_cast<int>(reader.integer("width", 1, kMaxImageSize));
+    camera.height = static_cast<int>(reader.integer("height", 1, kMaxImageSize));
+    camera.intrinsics = readIntrinsics(reader, camera.width, camera.height);
+    camera.near = reader.number("near", {1 / kMaxSceneNumber, kMaxSceneNumber});
+    camera.far = reader.number("far", kPositiveRange);
+    if (!(camera.near < camera.far))
+        reader.failKey("far",
+                       fmt::format("must be greater than 'near' ({} m), not {}", camera.near, camera.far));
+    camera.cameraToWorld = reader.has("camera_to_world") ? poseFromMatrix(reader) : poseFromTarget(reader);
+    return camera;
+}
+
+Environment readEnvironment(const std::string& file, const TomlValue& value) {
+    const TableReader reader(file, value, "[environment]", {"file", "intensity", "rotation_deg", "constant"});
+    Environment environment;
+    environment.line = reader.line();
+    if (reader.has("file")) {
+        reader.forbid("constant", "cannot stand beside 'file'");
+        environment.kind = EnvironmentKind::file;
+        environment.file = reader.existingFile("file");
+        if (reader.has("intensity")) environment.intensity = reader.number("intensity", kPositiveRange);
+        if (reader.has("rotation_deg"))
+            environment.rotation_deg = reader.number("rotation_deg", kDegreesRange);
+        return environment;
+    }
+    for (const char* key : {"intensity", "rotation_deg"}) reader.forbid(key, "needs 'file' beside it");
+    if (!reader.has("constant"))
+        reader.fail(reader.line(),
+                    "missing key 'file' or 'constant' in [environment] (leave the table out for black)");
+    environment.kind = EnvironmentKind::constant;
+    environment.constant = reader.triple("constant", kNonNegativeRange);
+    return environment;
+}
+
+DirectionalLight readLight(const std::string& file, const TomlValue& value) {
+    constexpr std::string_view kKinds[] = {"directional"};
+    const TableReader reader(file, value, "[[light]]", {"kind", "direction", "irradiance"});
+    DirectionalLight light;
+    light.line = reader.line();
+    reader.choice("kind", kKinds);
+    light.direction = unitOf(reader.direction("direction"));
+    light.irradiance = reader.triple("irradiance", kNonNegativeRange);
+    return light;
+}
+
+}  // namespace etalon

@@ -1,0 +1,155 @@
+#include "ar/surface_builder.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+
+#include "ar/image_io.h"
+#include "ar/mesh_loader.h"
+#include "ar/transform.h"
+
+namespace etalon {
+namespace {
+
+SurfaceMaterial toSurface(const Material& material) {
+    SurfaceMaterial surface;
+    switch (material.kind) {
+        case MaterialKind::lambert: surface.kind = SurfaceKind::lambert; break;
+        case MaterialKind::blinnPhong: surface.kind = SurfaceKind::blinnPhong; break;
+        case MaterialKind::mirror: surface.kind = SurfaceKind::mirror; break;
+    }
+    surface.diffuse = material.diffuse;
+    surface.specular = material.specular;
+    surface.reflectance = material.reflectance;
+    surface.exponent = material.exponent;
+    if (material.checker) {
+        surface.checker = true;
+        surface.diffuse2 = material.checker->diffuse;
+        surface.checkerSize_m = material.checker->size_m;
+    }
+    return surface;
+}
+
+// The inverse transpose of the upper 3x3 part, column by column.
+glm::dmat3 normalMatrix(const glm::dmat4& m) {
+    const auto column = [&](int i) {
+        glm::dvec3 axis(0);
+        axis[i] = 1;
+        return transformNormal(m, axis);
+    };
+    return glm::dmat3(column(0), column(1), column(2));
+}
+
+glm::dvec3 centreOfBounds(const SurfaceMesh& mesh, const glm::dmat4& toWorld) {
+    glm::dvec3 lowest(INFINITY), highest(-INFINITY);
+    for (const glm::vec3& position : mesh.positions) {
+        const glm::dvec3 p = transformPoint(toWorld, glm::dvec3(position));
+        for (int k = 0; k < 3; k++) {
+            lowest[k] = std::min(lowest[k], p[k]);
+            highest[k] = std::max(highest[k], p[k]);
+        }
+    }
+    return {(lowest.x + highest.x) / 2, (lowest.y + highest.y) / 2, (lowest.z + highest.z) / 2};
+}
+
+// Two triangles; the corners are point +- u size.x / 2 +- v size.y / 2, surface coordinates in metres from point.
+SurfaceMesh planeMesh(const Plane& plane) {
+    SurfaceMesh mesh;
+    for (const auto& [a, b] : {std::pair(-0.5, -0.5), std::pair(0.5, -0.5), std::pair(0.5, 0.5), std::pair(-0.5, 0.5)}) {
+        const double u_m = a * plane.size_m.x, v_m = b * plane.size_m.y;
+        mesh.positions.emplace_back(plane.point.x + (u_m * plane.u.x + v_m * plane.v.x),
+                                    plane.point.y + (u_m * plane.u.y + v_m * plane.v.y),
+                                    plane.point.z + (u_m * plane.u.z + v_m * plane.v.z));
+        mesh.normals.emplace_back(plane.normal);
+        mesh.uv_m.emplace_back(u_m, v_m);
+    }
+    mesh.indices = {0, 1, 2, 0, 2, 3};
+    return mesh;
+}
+
+}  // namespace
+
+SurfaceScene buildSurfaces(const Scene& scene, std::vector<std::string>& warnings) {
+    SurfaceScene surfaces;
+    for (const Material& material : scene.materials) surfaces.materials.push_back(toSurface(material));
+    for (const DirectionalLight& light : scene.lights)
+        surfaces.lights.push_back({{-light.direction.x, -light.direction.y, -light.direction.z}, light.irradiance});
+    surfaces.ambient = scene.ambient;
+    if (scene.environment.kind == EnvironmentKind::constant) surfaces.environment.constant = scene.environment.constant;
+    const SinCos rotation = sinCosOfDegrees(scene.environment.rotation_deg);
+    surfaces.environment.cosRotation = rotation.cos;
+    surfaces.environment.sinRotation = rotation.sin;
+
+    std::map<std::filesystem::path, uint32_t> meshOfFile;
+    for (const PlanObject& object : planObjects(scene)) {
+        SurfaceInstance instance;
+        if (!object.isMesh) {
+            const Plane& plane = scene.planes[object.index];
+            instance.mesh = static_cast<uint32_t>(surfaces.meshes.size());
+            instance.material = static_cast<uint32_t>(plane.material);
+            instance.twoSided = false;
+            surfaces.meshes.push_back(planeMesh(plane));
+            surfaces.instances.push_back(instance);
+            continue;
+        }
+        const MeshObject& mesh = scene.meshes[object.index];
+        const auto [entry, isNew] = meshOfFile.try_emplace(mesh.file, static_cast<uint32_t>(surfaces.meshes.size()));
+        if (isNew) {
+            LoadedMesh loaded = loadMesh(mesh.file, where(scene, mesh.fileLine));
+            for (std::string& warning : meshWarnings(mesh.file, loaded.report)) warnings.push_back(std::move(warning));
+            surfaces.meshes.push_back({std::move(loaded.mesh.positions), std::move(loaded.mesh.normals), {},
+                                       std::move(loaded.mesh.indices)});
+        }
+        instance.mesh = entry->second;
+        instance.material = static_cast<uint32_t>(mesh.material);
+        instance.toWorld = mesh.objectToWorld[object.placement];
+        instance.normalToWorld = normalMatrix(instance.toWorld);
+        instance.reflection =
+            mesh.reflection == Reflection::scene ? SurfaceReflection::scene : SurfaceReflection::environment;
+        instance.cubeSize = mesh.cubeSize;
+        instance.cubeCentre_m = centreOfBounds(surfaces.meshes[instance.mesh], instance.toWorld);
+        surfaces.instances.push_back(instance);
+    }
+    return surfaces;
+}
+
+Image<float> loadEnvironment(const Scene& scene, bool strict, std::vector<std::string>& warnings) {
+    Image<float> image = readRgb(scene.environment.file);
+    uint64_t negative = 0, nonFinite = 0;
+    for (float& value : image.values()) {
+        const bool isFinite = std::isfinite(value);
+        nonFinite += isFinite ? 0 : 1;
+        negative += isFinite && value < 0 ? 1 : 0;
+        value = isFinite && value > 0 ? static_cast<float>(value * scene.environment.intensity) : 0.f;
+        if (!std::isfinite(value))
+            throw InputError(fmt::format("{}: radiance times intensity {} exceeds the range of float",
+                                         where(scene, scene.environment.line), scene.environment.intensity));
+    }
+    if (negative + nonFinite == 0) return image;
+    const std::string found = fmt::format("{}: {} negative and {} non-finite values", scene.environment.file.string(),
+                                          negative, nonFinite);
+    if (strict) throw InputError(found);
+    warnings.push_back(found + " were set to 0");
+    return image;
+}
+
+View cameraViewOf(const Camera& camera) {
+    const auto axis = [&](int column) { return glm::dvec3(camera.cameraToWorld[column]); };
+    PinholeCamera pinhole;
+    pinhole.width = camera.width;
+    pinhole.height = camera.height;
+    pinhole.fx = camera.intrinsics.fx;
+    pinhole.fy = camera.intrinsics.fy;
+    pinhole.cx = camera.intrinsics.cx;
+    pinhole.cy = camera.intrinsics.cy;
+    pinhole.right = axis(0);
+    pinhole.up = axis(1);
+    pinhole.backward = axis(2);
+    pinhole.position = axis(3);
+    pinhole.near_m = camera.near;
+    pinhole.far_m = camera.far;
+    return cameraView(pinhole);
+}
+
+}  // namespace etalon

@@ -1,0 +1,27 @@
+// The vertex stage: object space to world space to clip space, in the profile's vertex arithmetic.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "lighting/surface_scene.h"
+#include "lighting/view.h"
+#include "raster/draw.h"
+#include "raster/render_target.h"
+
+namespace etalon {
+
+// A mesh in world space; one per instance, shared by all views. The doubles hold values of the vertex arithmetic.
+struct PlacedMesh {
+    const SurfaceMesh* mesh = nullptr;
+    std::vector<glm::dvec3> positions, normals;  // normals are not normalised
+    bool mirrored = false;                       // the transform turns counter-clockwise faces clockwise
+};
+
+// Places every instance of the scene. Throws PreconditionError for an index of a mesh or vertex out of range.
+std::vector<PlacedMesh> placeMeshes(const SurfaceScene& scene, RasterReal vertexReal, int threads);
+
+// The vertices in clip space of a view.
+std::vector<ClipVertex> toClipSpace(const PlacedMesh& placed, const View& view, RasterReal vertexReal, int threads);
+
+}  // namespace etalon

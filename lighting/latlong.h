@@ -1,0 +1,129 @@
+// Latitude-longitude images of the environment. The texts are lighting/kernels/latlong.glsl.
+//
+// Orientation as in OpenEXR's envmap convention [OpenEXR, ImfEnvmap.h], with +Y up:
+//   longitude = atan2(x, z), latitude = atan2(y, sqrt(x^2 + z^2)),
+//   u = 1/2 - longitude / (2 pi), v = 1/2 - latitude / pi:
+// the middle of the image is +Z, +X is a quarter from its left border, -X a quarter from its right one, the
+// upper border is +Y. Texel centres are at ((i + 1/2) / width, (j + 1/2) / height). OpenEXR's own pixel
+// positions put the centres of the first and the last pixel on the borders instead (u = i / (width - 1)),
+// where both columns would show the same direction and each pole a whole row; files in practice follow the
+// texel-centre rule.
+//
+// Degenerate directions: straight up and down have longitude 0, the zero direction is +Z; NaN counts as u = 0
+// or v = 0. The squares of x and z neither overflow nor vanish in the number type.
+//
+// Sampling: as raster/sampler.h (nearest or bilinear, fraction bits, tap order, hull). Columns repeat. Beyond
+// a pole lies the pole's own row half a turn further (width / 2 columns, rounded down), so that bilinear
+// sampling is continuous along every great circle through a pole if the width is even. Of `Sampling` the wrap
+// modes are not used.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "numeric/elementary.h"
+#include "numeric/kernel_types.h"
+#include "numeric/parallel.h"
+#include "raster/cube_face.h"
+#include "raster/image.h"
+#include "raster/sampler.h"
+#include "raster/texture.h"
+
+namespace etalon {
+
+// Largest error of u and v in float against exact arithmetic, direction exact; u at its border counts
+// modulo 1.
+inline constexpr double kLatLongFloatError = 0x1p-23;
+
+// The texts over T: latLongCoordinates, sampleLatLong(texture, direction, sampling).
+template <class T>
+struct LatLongKernel {
+#include "numeric/kernel_scope.inc"
+#include "raster/texture_scope.inc"
+//
+#include "raster/kernels/sampler.glsl"
+//
+#include "lighting/kernels/latlong.glsl"
+#include "raster/kernels/cube_face.glsl"
+};
+
+// Directions and solid angles of the texels of a lat-long image, from tables per row and column in double.
+class LatLongGrid {
+  public:
+    // width, height >= 1.
+    LatLongGrid(int width, int height);
+
+    int width() const { return static_cast<int>(sinLongitude_.size()); }
+    int height() const { return static_cast<int>(sinLatitude_.size()); }
+
+    // The unit direction of the centre of texel (x, y); each component within 2^-50.
+    glm::dvec3 direction(int x, int y) const {
+        const auto i = static_cast<size_t>(x), j = static_cast<size_t>(y);
+        return {sinLongitude_[i] * cosLatitude_[j], sinLatitude_[j], cosLongitude_[i] * cosLatitude_[j]};
+    }
+    // Solid angle of each texel of row y, in steradians; over the image they add up to 4 pi (relative 2^-48).
+    double solidAngle_sr(int y) const { return solidAngle_sr_[static_cast<size_t>(y)]; }
+
+  private:
+    std::vector<double> sinLongitude_, cosLongitude_, sinLatitude_, cosLatitude_, solidAngle_sr_;
+};
+
+// How cubeFromLatLong samples.
+struct CubeFromLatLong {
+    Filter filter = Filter::kBilinear;
+    int fractionBits = kExactFraction;
+    int samplesPerAxis = 1;  // per cube texel, on a regular grid; 1 .. kMaxSamplesPerAxis
+};
+inline constexpr int kMaxSamplesPerAxis = 64;
+
+// The cube map of size x size texels per face that shows the lat-long image (3 channels): each texel is the
+// mean, summed in rows, of samplesPerAxis^2 samples at the centres of its equal parts in the face's plane. T
+// is the number type of the arithmetic; neither threads nor lanes change a bit.
+template <class T>
+CubeMap<float> cubeFromLatLong(const Image<float>& latLong, int size, const CubeFromLatLong& options = {},
+                               int threads = 0) {
+    ETALON_CHECK(latLong.channels() == 3 && size > 0, "{} channels, size {}", latLong.channels(), size);
+    const int parts = options.samplesPerAxis;
+    ETALON_CHECK(parts >= 1 && parts <= kMaxSamplesPerAxis, "{} samples per axis", parts);
+    using Kernel = LatLongKernel<T>;
+    using vec3 = typename Kernel::vec3;
+    constexpr int kWidth = NumberTraits<T>::lanes;
+    const TextureView texture(latLong);
+    const auto sampling =
+        samplingOf<Kernel>({options.filter, Wrap::kRepeat, Wrap::kClamp, options.fractionBits},
+                           latLong.width(), latLong.height());
+    // The coordinate of part `part` of texel i, in double.
+    auto coordinate = [&](int i, int part) {
+        return (static_cast<double>(i) * parts + part + 0.5) / (static_cast<double>(size) * parts);
+    };
+    const T weight(1.0 / (parts * parts));
+
+    CubeMap<float> cube(size, 3);
+    parallelFor(static_cast<size_t>(kCubeFaces * size), threads, [&](size_t item) {
+        const int face = static_cast<int>(item) / size, y = static_cast<int>(item) % size;
+        Image<float>& image = cube.faces[static_cast<size_t>(face)];
+        Kernel kernel;
+        forEachLaneGroup<kWidth>(static_cast<size_t>(size), [&](size_t first, int active) {
+            vec3 sum{T(0.0), T(0.0), T(0.0)};
+            for (int j = 0; j < parts; j++)
+                for (int i = 0; i < parts; i++) {
+                    const T s = generateNumber<T>(
+                        [&](int lane) { return coordinate(static_cast<int>(first) + lane, i); });
+                    const vec3 direction =
+                        kernel.cubeDirection(typename Kernel::integer(face), s, T(coordinate(y, j)));
+                    const vec3 value = kernel.sampleLatLong(texture, direction, sampling);
+                    for (int c = 0; c < 3; c++) sum[c] = i == 0 && j == 0 ? value[c] : sum[c] + value[c];
+                }
+            for (int c = 0; c < 3; c++)
+                TexelFetch<T>::store(parts == 1 ? sum[c] : sum[c] * weight, image.row(y, c).data() + first,
+                                     active);
+        });
+    });
+    return cube;
+}
+
+// The same in the default profile: float arithmetic in lanes.
+CubeMap<float> cubeFromLatLong(const Image<float>& latLong, int size, const CubeFromLatLong& options = {},
+                               int threads = 0);
+
+}  // namespace etalon

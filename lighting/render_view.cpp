@@ -1,0 +1,61 @@
+#include "lighting/render_view.h"
+
+namespace etalon {
+
+VisibleScene findVisible(const SurfaceScene& scene, const std::vector<PlacedMesh>& placed, const View& view,
+                         const Profile& profile, int samples, const RasterOptions& options, uint32_t excluded) {
+    RenderTargetFormat format;
+    format.samples = samples;
+    format.subpixelBits = profile.subpixelBits;
+    format.depth = profile.depth;
+    format.depthRounding = profile.depthRounding;
+    format.real = profile.vertex;
+    VisibleScene visible{RenderTarget(view.width, view.height, format), {}, {}};
+
+    std::vector<std::vector<ClipVertex>> vertices;
+    std::vector<Draw> draws;
+    for (uint32_t i = 0; i < scene.instances.size(); i++) {
+        if (i == excluded) continue;
+        vertices.push_back(toClipSpace(placed[i], view, profile.vertex, options.threads));
+        Draw draw;
+        draw.vertices = vertices.back();
+        draw.indices = placed[i].mesh->indices;
+        draw.state.cull = scene.instances[i].twoSided ? CullMode::none : CullMode::back;
+        draw.state.frontIsClockwise = view.mirrored != placed[i].mirrored;
+        draws.push_back(draw);
+        visible.instanceOfDraw.push_back(i);
+    }
+    visible.statistics =
+        rasterize(visible.target, {0, 0, view.width, view.height}, draws, options);
+    return visible;
+}
+
+CubeRender renderCubeMap(const SurfaceScene& scene, const std::vector<PlacedMesh>& placed,
+                         const CubeRenderRequest& request, const CubeMap<float>* environmentCube,
+                         const Profile& profile, const RasterOptions& options) {
+    CubeRender cube;
+    for (int face = 0; face < kCubeFaces; face++) {
+        const View view =
+            cubeFaceView(static_cast<CubeFace>(face), request.size, request.centre, request.near_m, request.far_m);
+        const VisibleScene visible = findVisible(scene, placed, view, profile, 1, options, request.excluded);
+        ShadeJob job;
+        job.scene = &scene;
+        job.view = &view;
+        job.target = &visible.target;
+        job.placed = &placed;
+        job.instanceOfDraw = visible.instanceOfDraw;
+        job.environmentCube = environmentCube;
+        job.sceneCubes.assign(scene.instances.size(), nullptr);
+        job.request[ShadeOutput::beauty] = true;
+        job.request[ShadeOutput::distance] = true;
+        job.profile = &profile;
+        job.threads = options.threads;
+        job.tileSize = options.tileSize;
+        ShadedImages images = shade(job);
+        cube.radiance.faces[static_cast<size_t>(face)] = std::move(images[ShadeOutput::beauty]);
+        cube.distance.faces[static_cast<size_t>(face)] = std::move(images[ShadeOutput::distance]);
+    }
+    return cube;
+}
+
+}  // namespace etalon

@@ -1,0 +1,45 @@
+// Views of a surface scene: visibility, then shading; one view, or the six of a cube map.
+#pragma once
+
+#include <limits>
+#include <optional>
+
+#include "lighting/geometry.h"
+#include "lighting/shade.h"
+#include "raster/rasterizer.h"
+
+namespace etalon {
+
+// What a view sees: its render target, and the instance that each draw of the target drew.
+struct VisibleScene {
+    RenderTarget target;
+    std::vector<uint32_t> instanceOfDraw;
+    RasterStatistics statistics;
+};
+
+inline constexpr uint32_t kNoInstance = std::numeric_limits<uint32_t>::max();
+
+// Rasterizes every instance but `excluded` with the profile's fixed function; samples: 1, 4 or 16 per pixel.
+VisibleScene findVisible(const SurfaceScene& scene, const std::vector<PlacedMesh>& placed, const View& view,
+                         const Profile& profile, int samples, const RasterOptions& options,
+                         uint32_t excluded = kNoInstance);
+
+// Six faces with what is seen from a point: radiance (three channels) and the distance along the ray in metres
+// (infinity where nothing is).
+struct CubeRender {
+    CubeMap<float> radiance, distance;
+};
+
+struct CubeRenderRequest {
+    glm::dvec3 centre{0};  // world space
+    int size = 0;          // texels along a face
+    double near_m = 0, far_m = 0;
+    uint32_t excluded = kNoInstance;  // an instance that the cube map does not show (the one that it is for)
+};
+
+// Renders the six faces around a point in one call. Mirrors seen in them reflect the environment alone.
+CubeRender renderCubeMap(const SurfaceScene& scene, const std::vector<PlacedMesh>& placed,
+                         const CubeRenderRequest& request, const CubeMap<float>* environmentCube,
+                         const Profile& profile, const RasterOptions& options);
+
+}  // namespace etalon

@@ -1,0 +1,66 @@
+#include "lighting/shade.h"
+
+#include <algorithm>
+#include <mutex>
+
+#include "lighting/arithmetic_passes.h"
+#include "numeric/check.h"
+#include "numeric/parallel.h"
+
+namespace etalon {
+namespace {
+
+int channelsOf(ShadeOutput output) { return output == ShadeOutput::distance ? 1 : 3; }
+
+}  // namespace
+
+ShadedImages shade(const ShadeJob& job, ShadeStatistics* statistics) {
+    ETALON_CHECK(job.scene && job.view && job.target && job.placed && job.profile, "a part of the job is missing");
+    ETALON_CHECK(job.instanceOfDraw.size() == job.target->drawCount &&
+                     job.sceneCubes.size() == job.scene->instances.size(),
+                 "{} draws of {}, {} cubes of {} instances", job.instanceOfDraw.size(), job.target->drawCount,
+                 job.sceneCubes.size(), job.scene->instances.size());
+    ETALON_CHECK(job.tileSize >= 1, "tileSize = {}", job.tileSize);
+    const int width = job.target->width(), height = job.target->height();
+    ShadedImages images;
+    for (size_t o = 0; o < kShadeOutputs; o++)
+        if (job.request.wanted[o])
+            images.images[o] = Image<float>(width, height, channelsOf(static_cast<ShadeOutput>(o)));
+
+    // One shader per thread at work; the sums of the counts do not depend on who counted.
+    const ArithmeticPasses passes = passesOf(job.profile->fragment);
+    std::mutex mutex;
+    std::vector<std::unique_ptr<TileShader>> idle;
+    ShadeStatistics total;
+    const int columns = (width + job.tileSize - 1) / job.tileSize, rows = (height + job.tileSize - 1) / job.tileSize;
+    parallelFor(static_cast<size_t>(columns) * static_cast<size_t>(rows), job.threads, [&](size_t t) {
+        std::unique_ptr<TileShader> shader;
+        {
+            const std::lock_guard lock(mutex);
+            if (!idle.empty()) {
+                shader = std::move(idle.back());
+                idle.pop_back();
+            }
+        }
+        if (!shader) shader = passes.makeTileShader(job);
+        const int x0 = static_cast<int>(t) % columns * job.tileSize, y0 = static_cast<int>(t) / columns * job.tileSize;
+        ShadeStatistics counts;
+        shader->run({x0, y0, std::min(x0 + job.tileSize, width), std::min(y0 + job.tileSize, height)}, images, counts);
+        const std::lock_guard lock(mutex);
+        total.surfaceFragments += counts.surfaceFragments;
+        total.backgroundFragments += counts.backgroundFragments;
+        idle.push_back(std::move(shader));
+    });
+    if (statistics) *statistics = total;
+    return images;
+}
+
+CubeMap<float> environmentCube(const SurfaceEnvironment& environment, const Profile& profile, int threads) {
+    CubeFromLatLong options;
+    options.filter = profile.textureFilter;
+    options.fractionBits = profile.textureFractionBits;
+    const int size = std::max(1, environment.latLong.width() / 4);
+    return passesOf(profile.fragment).cubeFromLatLong(environment.latLong, size, options, threads);
+}
+
+}  // namespace etalon

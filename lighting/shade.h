@@ -1,0 +1,69 @@
+// Shading of what a view sees: from a render target with visibility to images.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "lighting/geometry.h"
+#include "lighting/surface_scene.h"
+#include "lighting/view.h"
+#include "raster/fragments.h"
+#include "raster/profile.h"
+#include "raster/render_target.h"
+#include "raster/texture.h"
+
+namespace etalon {
+
+// The images that shading can make. The radiance components add up to `beauty`, in this order.
+enum class ShadeOutput : uint8_t { ambient, diffuse, specular, mirror, background, beauty, normals, distance };
+inline constexpr int kShadeOutputs = 8;
+inline constexpr int kRadianceComponents = 5;
+
+// Which images to make.
+struct ShadeRequest {
+    bool wanted[kShadeOutputs] = {};
+
+    bool& operator[](ShadeOutput o) { return wanted[static_cast<size_t>(o)]; }
+    bool operator[](ShadeOutput o) const { return wanted[static_cast<size_t>(o)]; }
+    // True if a radiance component is wanted, for itself or for the beauty.
+    bool needs(ShadeOutput component) const { return (*this)[component] || (*this)[ShadeOutput::beauty]; }
+};
+
+// The images asked for; the others are empty. Radiance images have three channels, resolved over the samples.
+// normals (three channels, unit length, world space, towards the viewer; 0 where nothing is visible) and distance
+// (metres from the eye along the ray; infinity where nothing is visible) are those of sample 0.
+struct ShadedImages {
+    Image<float> images[kShadeOutputs];
+
+    Image<float>& operator[](ShadeOutput o) { return images[static_cast<size_t>(o)]; }
+    const Image<float>& operator[](ShadeOutput o) const { return images[static_cast<size_t>(o)]; }
+};
+
+struct ShadeStatistics {
+    uint64_t surfaceFragments = 0;     // shaded once each
+    uint64_t backgroundFragments = 0;
+};
+
+// Everything shading reads. The referenced objects outlive the call.
+struct ShadeJob {
+    const SurfaceScene* scene = nullptr;
+    const View* view = nullptr;
+    const RenderTarget* target = nullptr;
+    const std::vector<PlacedMesh>* placed = nullptr;
+    std::vector<uint32_t> instanceOfDraw;           // for each draw of the target
+    const CubeMap<float>* environmentCube = nullptr;  // null: mirrors of the environment see its constant
+    std::vector<const CubeMap<float>*> sceneCubes;  // for each instance: its cube map, or null for the environment
+    ShadeRequest request;
+    const Profile* profile = nullptr;
+    int threads = 0, tileSize = 64;
+};
+
+// Shades each visible fragment once, in the profile's fragment arithmetic.
+ShadedImages shade(const ShadeJob& job, ShadeStatistics* statistics = nullptr);
+
+// The cube map of a lat-long environment for its mirrors, without its rotation: a quarter of the image's width along
+// a face, so that texels subtend about what they do in the image, one sample each.
+CubeMap<float> environmentCube(const SurfaceEnvironment& environment, const Profile& profile, int threads);
+
+}  // namespace etalon

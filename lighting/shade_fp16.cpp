@@ -1,0 +1,8 @@
+#include "lighting/shade_tile.h"
+#include "numeric/rounded.h"
+
+namespace etalon {
+
+ArithmeticPasses passesFp16() { return passesOver<Rounded<kFp16, Lanes<double>>>(); }
+
+}  // namespace etalon

@@ -1,0 +1,8 @@
+#include "lighting/shade_tile.h"
+#include "numeric/rounded.h"
+
+namespace etalon {
+
+ArithmeticPasses passesFp32Nv40() { return passesOver<Rounded<kFp32Nv40, Lanes<double>>>(); }
+
+}  // namespace etalon

@@ -1,0 +1,74 @@
+// What the shading passes draw: meshes in world space, materials, lights and the environment. Plain data, made by
+// ar/ from a scene file or by any other caller.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "raster/image.h"
+
+namespace etalon {
+
+enum class SurfaceKind : uint8_t { lambert, blinnPhong, mirror };
+
+// Linear Rec.709 reflectances in [0, 1].
+struct SurfaceMaterial {
+    SurfaceKind kind = SurfaceKind::lambert;
+    glm::dvec3 diffuse{0};
+    glm::dvec3 specular{0};
+    glm::dvec3 reflectance{0};  // of the mirror
+    double exponent = 1;        // of Blinn-Phong, at least 1
+    bool checker = false;       // squares of odd parity take diffuse2; u and v in metres
+    glm::dvec3 diffuse2{0};
+    double checkerSize_m = 1;
+};
+
+// toLight: unit vector towards the light. irradiance: on a surface that faces it, W/m^2 per channel.
+struct SurfaceLight {
+    glm::dvec3 toLight{0, 1, 0};
+    glm::dvec3 irradiance{0};
+};
+
+// A mesh of the scene. normals and surface coordinates are per vertex; uv may be empty (then 0).
+struct SurfaceMesh {
+    std::vector<glm::vec3> positions;
+    std::vector<glm::vec3> normals;
+    std::vector<glm::vec2> uv_m;
+    std::vector<uint32_t> indices;
+};
+
+// Where a mirror looks: into the environment alone, or into a cube map of the scene around the object's centre.
+enum class SurfaceReflection : uint8_t { environment, scene };
+
+// A placed mesh. normalToWorld is the inverse transpose of the upper 3x3 part, up to a positive factor.
+struct SurfaceInstance {
+    uint32_t mesh = 0, material = 0;
+    glm::dmat4 toWorld{1};
+    glm::dmat3 normalToWorld{1};
+    SurfaceReflection reflection = SurfaceReflection::environment;
+    int cubeSize = 0;              // of the scene reflection, in texels
+    glm::dvec3 cubeCentre_m{0};    // world space
+    bool twoSided = true;          // false: culled when seen from behind
+};
+
+// Radiance from far away over directions: a lat-long image (OpenEXR convention), or nothing (black).
+struct SurfaceEnvironment {
+    Image<float> latLong;  // 3 channels; empty: constant
+    glm::dvec3 constant{0};
+    double cosRotation = 1, sinRotation = 0;  // of the environment about +Y
+};
+
+struct SurfaceScene {
+    std::vector<SurfaceMesh> meshes;
+    std::vector<SurfaceInstance> instances;
+    std::vector<SurfaceMaterial> materials;
+    std::vector<SurfaceLight> lights;
+    glm::dvec3 ambient{0};  // radiance that arrives from everywhere
+    SurfaceEnvironment environment;
+};
+
+}  // namespace etalon

@@ -1,0 +1,171 @@
+// Elementary functions from + - * /, comparisons and the bits of doubles: the same bits on every machine,
+// compiler and number of lanes. Code that computes calls these and never those of <cmath>.
+#pragma once
+
+#include <algorithm>
+#include <concepts>
+#include <cstdint>
+#include <cstring>
+
+#include "numeric/format.h"
+#include "numeric/kernel_types.h"
+#include "numeric/lanes.h"
+#include "numeric/rounded.h"
+
+namespace etalon {
+
+// atan2Of(y, x): the angle of the vector (x, y) in radians, in [-pi, pi].
+//   Zeros have no sign: atan2Of(0, x) is 0 for x >= 0, also for x = 0, and pi for x < 0, whichever zero it
+//   is. Infinities as in C: pi/2 for (inf, finite), +-pi for (finite, -inf), pi/4 for (inf, inf), and so on.
+//   NaN if an argument is NaN.
+// powOf(x, y): x to the power y, for x >= 0; -0 is taken as 0.
+//   powOf(x, 0) = 1 for every x >= 0; powOf(0, y) is 0 for y > 0 and infinity for y < 0; powOf(inf, y) is
+//   infinity for y > 0 and 0 for y < 0; powOf(x, +-inf) is the limit, and 1 for x = 1. Overflow gives
+//   infinity. NaN if x < 0 or an argument is NaN.
+// Both for float, double, Rounded<F, D>, Lanes of float and double, and, with numeric/truth_elementary.h,
+// Truth.
+//
+// Small numbers: arguments and results below the smallest normal number of the type in magnitude (float
+// 2^-126, double 2^-1022) are taken as 0, so that no mode of flushing subnormals changes a bit. Rounded<F, D>
+// has the smallest positive number of F in that place. In double, atan2Of is also 0 where the exponent of y
+// is more than 900 below that of x > 0.
+//
+// Errors: in double kAtan2ErrorUlp and kPowErrorUlp. In float and Rounded<F, D> the result of a computation
+// in double with a relative error below 2^-43 is rounded once: kFloatErrorUlp with nearest-even.
+template <class N>
+N atan2Of(N y, N x) {
+    return ElementaryFunctions<N>::atan2Of(y, x);
+}
+template <class N>
+N powOf(N x, N y) {
+    return ElementaryFunctions<N>::powOf(x, y);
+}
+
+// Sine and cosine of an angle in radians, |angle_rad| <= kMaxAngle (PreconditionError otherwise, also for
+// NaN). sinOf(-x) is -sinOf(x), cosOf(-x) is cosOf(x). Errors: kSinErrorUlp, kCosErrorUlp.
+double sinOf(double angle_rad);
+double cosOf(double angle_rad);
+
+// e^x. Infinity for x > 709.79; 0 where the result is below 2^-1022 (x < -708.39); NaN for NaN. Error:
+// kExpErrorUlp.
+double expOf(double x);
+
+inline constexpr double kMaxAngle = 0x1p20;
+
+// Largest errors, in units in the last place of the type at the true result. The tests check them against
+// MPFR.
+inline constexpr double kAtan2ErrorUlp = 0.65;
+inline constexpr double kPowErrorUlp = 0.70;
+inline constexpr double kFloatErrorUlp = 0.500001;
+inline constexpr double kSinErrorUlp = 0.85;
+inline constexpr double kCosErrorUlp = 0.85;
+inline constexpr double kExpErrorUlp = 0.65;
+
+// The kernel texts written over `wide`, for D = double or Lanes<double, N>.
+template <class D>
+struct WideTexts {
+    using T = D;
+#include "numeric/kernel_scope.inc"
+    using wide = D;
+    using Bits = DoubleBits<D>;
+
+    static wide wideFromBits(uint32_t high, uint32_t low) {
+        return wide(std::bit_cast<double>(static_cast<uint64_t>(high) << 32 | low));
+    }
+    // The exponent e of a = m 2^e, 1 <= m < 2, as a whole number: for normal a > 0. For zero and subnormals
+    // it is -1023, for infinity 1024.
+    static wide exponentOf(wide a) {
+        return Bits::from((Bits::of(a) >> kFractionBits) | kWholeNumberBits) - wide(kWholeNumberOffset);
+    }
+    // The significand m of the same.
+    static wide significandOf(wide a) { return Bits::from((Bits::of(a) & kFractionMask) | kOneBits); }
+    // 2^k exactly, for a whole number k in [-1022, 1023].
+    static wide powerOfTwo(wide k) {
+        return Bits::from(Bits::of(k + wide(kWholeNumberOffset)) << kFractionBits);
+    }
+
+#include "numeric/kernels/wide.glsl"
+// The texts that need it.
+#include "numeric/kernels/atan2.glsl"
+#include "numeric/kernels/pow.glsl"
+
+  private:
+    static constexpr int kFractionBits = 52;
+    static constexpr int64_t kFractionMask = (int64_t{1} << kFractionBits) - 1;
+    static constexpr int64_t kOneBits = 0x3FF0000000000000;
+    // A whole number k in [0, 2^52) stands in the low bits of 2^52 + k. The exponent field of a double holds
+    // e + 1023.
+    static constexpr int64_t kWholeNumberBits = 0x4330000000000000;
+    static constexpr double kWholeNumberOffset = 0x1p52 + 1023.0;
+};
+
+// f(a, b) per lane, through one register of doubles at a time; f takes Lanes<double, M> and returns them.
+template <class S, int N, class F>
+Lanes<S, N> byRegisters(Lanes<S, N> a, Lanes<S, N> b, F&& f) {
+    constexpr int kPart = std::min(N, kNativeLanes<double>);
+    using Part = Lanes<S, kPart>;
+    S values[3][N];
+    a.store(values[0]);
+    b.store(values[1]);
+    for (int i = 0; i < N; i += kPart) {
+        const auto aPart = convertLanes<double>(Part::load(values[0] + i));
+        const auto bPart = convertLanes<double>(Part::load(values[1] + i));
+        convertLanes<S>(f(aPart, bPart)).store(values[2] + i);
+    }
+    return Lanes<S, N>::load(values[2]);
+}
+
+// atan2Of and powOf in double for a result format with the given smallest exponent; `extended` as in the
+// texts.
+inline double atan2InDouble(double y, double x, double lowest, bool extended) {
+    return WideTexts<double>{}.atan2Wide(y, x, lowest, extended);
+}
+inline double powInDouble(double x, double y, double lowest, bool extended) {
+    return WideTexts<double>{}.powWide(x, y, lowest, extended);
+}
+template <class S, int N>
+Lanes<S, N> atan2InDouble(Lanes<S, N> y, Lanes<S, N> x, double lowest, bool extended) {
+    return byRegisters(y, x, [=](auto a, auto b) {
+        return WideTexts<decltype(a)>{}.atan2Wide(a, b, decltype(a)(lowest), extended);
+    });
+}
+template <class S, int N>
+Lanes<S, N> powInDouble(Lanes<S, N> x, Lanes<S, N> y, double lowest, bool extended) {
+    return byRegisters(x, y, [=](auto a, auto b) {
+        return WideTexts<decltype(a)>{}.powWide(a, b, decltype(a)(lowest), extended);
+    });
+}
+
+// Exponent of the smallest normal number, and whether results need more than double.
+template <std::floating_point S>
+inline constexpr double kLowestExponent = sizeof(S) > sizeof(float) ? -1022.0 : -126.0;
+template <std::floating_point S>
+inline constexpr bool kNeedsExtended = sizeof(S) > sizeof(float);
+
+// What atan2Of and powOf are for one number type. A class template, so that class templates that include
+// numeric/kernel_scope.inc find it for number types that are declared after them.
+template <std::floating_point S>
+struct ElementaryFunctions<S> {
+    static S atan2Of(S y, S x) {
+        return static_cast<S>(atan2InDouble(y, x, kLowestExponent<S>, kNeedsExtended<S>));
+    }
+    static S powOf(S x, S y) {
+        return static_cast<S>(powInDouble(x, y, kLowestExponent<S>, kNeedsExtended<S>));
+    }
+};
+template <class S, int N>
+struct ElementaryFunctions<Lanes<S, N>> {
+    using L = Lanes<S, N>;
+    static L atan2Of(L y, L x) { return atan2InDouble(y, x, kLowestExponent<S>, kNeedsExtended<S>); }
+    static L powOf(L x, L y) { return powInDouble(x, y, kLowestExponent<S>, kNeedsExtended<S>); }
+};
+template <Format F, class D>
+struct ElementaryFunctions<Rounded<F, D>> {
+    using R = Rounded<F, D>;
+    static constexpr double kLowest =
+        F.minExponent - (F.subnormals == Subnormals::keep ? F.significandBits - 1 : 0);
+    static R atan2Of(R y, R x) { return R(atan2InDouble(y.v, x.v, kLowest, false)); }
+    static R powOf(R x, R y) { return R(powInDouble(x.v, y.v, kLowest, false)); }
+};
+
+}  // namespace etalon

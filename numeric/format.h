@@ -1,0 +1,145 @@
+// Descriptions of floating-point number formats, and the named ones that arithmetic profiles are made of.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <string_view>
+
+namespace etalon {
+
+// How an exact result between two neighbouring numbers of a format becomes one of them.
+enum class Rounding {
+    nearestEven,  // the nearer one; halfway, the one with the even significand
+    towardZero,   // the one of smaller magnitude (truncation)
+};
+
+// What happens to results below the smallest normal number.
+enum class Subnormals {
+    keep,   // gradual underflow as in IEEE 754
+    flush,  // rounded as with `keep`, then replaced by a zero of the same sign unless normal. Hardware that
+            // flushes differs in the last step below the smallest normal: x86 decides after rounding with an
+            // unbounded exponent, AArch64 before rounding. The choice here is a third one: the kept result,
+            // flushed.
+};
+
+// What happens to results beyond the largest finite number.
+enum class Overflow {
+    infinity,  // as in IEEE 754: infinity with nearestEven, the largest finite number with towardZero;
+               // operations on infinities, division by zero and NaN as in IEEE 754
+    saturate,  // the format has neither infinities nor NaN: every result that would be infinite is the
+               // largest finite number with its sign, every result that would be NaN is +0
+};
+
+// A binary floating-point format with a sign bit: the numbers +-m * 2^e with 1 <= m < 2, m a multiple of
+// 2^(1 - significandBits), minExponent <= e <= maxExponent; zeros of both signs; with Subnormals::keep also
+// the multiples of 2^(minExponent - significandBits + 1) below 2^minExponent; with Overflow::infinity also
+// both infinities and one NaN. Usable as a template argument.
+struct Format {
+    int significandBits;  // with the leading one
+    int minExponent;      // of the smallest normal number
+    int maxExponent;      // of the largest finite number
+    Rounding rounding;
+    Subnormals subnormals;
+    Overflow overflow;
+
+    friend constexpr bool operator==(const Format&, const Format&) = default;
+};
+
+// 2^exponent, for exponents in [-1022, 1023].
+constexpr double powerOfTwo(int exponent) {
+    constexpr int kDoubleBias = 1023, kDoubleFractionBits = 52;  // IEEE 754 binary64
+    return std::bit_cast<double>(static_cast<int64_t>(exponent + kDoubleBias) << kDoubleFractionBits);
+}
+
+constexpr double largestFinite(Format f) {
+    return (2.0 - powerOfTwo(1 - f.significandBits)) * powerOfTwo(f.maxExponent);
+}
+constexpr double smallestNormal(Format f) { return powerOfTwo(f.minExponent); }
+// The smallest number above zero: subnormal where the format keeps those.
+constexpr double smallestPositive(Format f) {
+    return f.subnormals == Subnormals::keep ? powerOfTwo(f.minExponent - f.significandBits + 1)
+                                            : smallestNormal(f);
+}
+// The distance from 1 to the next larger number. A result in the normal range is off by at most half of it
+// (nearestEven), or by less than all of it (towardZero), relative to the exact result.
+constexpr double epsilonOf(Format f) { return powerOfTwo(1 - f.significandBits); }
+
+// Largest significand and exponents for which Rounded is exact; rounded.h derives the first. The second keeps
+// every exact product, quotient and rounding constant well inside the range of double.
+inline constexpr int kMaxSignificandBits = 24;
+inline constexpr int kMaxFormatExponent = 400;
+
+// True if Rounded can emulate the format: 2 to 24 significand bits, exponents within +-400, 1 inside the
+// normal range, and every number below the first whole-number binade rounds down to a finite number (floorOf
+// is exact).
+constexpr bool isSupported(Format f) {
+    return f.significandBits >= 2 && f.significandBits <= kMaxSignificandBits &&
+           f.minExponent >= -kMaxFormatExponent && f.minExponent <= 0 &&
+           f.maxExponent <= kMaxFormatExponent && f.maxExponent >= f.significandBits - 1;
+}
+
+// IEEE 754 binary32: `float` of every CPU that this project builds for. All of it is documented.
+inline constexpr Format kFp32{24, -126, 127, Rounding::nearestEven, Subnormals::keep, Overflow::infinity};
+
+// binary32 as Direct3D 11 asks for it. Documented (D3D11.3 functional specification, floating-point rules):
+// add, subtract and multiply within 0.5 ULP, subnormals flushed to a zero that keeps its sign, infinities and
+// NaN. Assumed: ties to even, and correctly rounded division and square root where the specification allows
+// more error.
+inline constexpr Format kFp32Flush{
+    24, -126, 127, Rounding::nearestEven, Subnormals::flush, Overflow::infinity};
+
+// binary32 that truncates: IEEE 754 roundTowardZero. No profile uses it as documented hardware; it shows what
+// the rounding direction alone does to an image.
+inline constexpr Format kFp32TowardZero{
+    24, -126, 127, Rounding::towardZero, Subnormals::keep, Overflow::infinity};
+
+// The fp32 of NV40 fragment programs. Documented: 1 sign, 8 exponent and 23 fraction bits. Assumed, because
+// no source states them: rounding to nearest even, subnormals flushed, IEEE infinities and NaN.
+inline constexpr Format kFp32Nv40{
+    24, -126, 127, Rounding::nearestEven, Subnormals::flush, Overflow::infinity};
+
+// IEEE 754 binary16. All of it is documented.
+inline constexpr Format kFp16{11, -14, 15, Rounding::nearestEven, Subnormals::keep, Overflow::infinity};
+
+// binary16 that truncates, the result of a Direct3D 11 narrowing conversion. Documented: toward zero when a
+// float is narrowed (D3D11.3 functional specification). Assumed: finite values beyond 65504 become 65504, as
+// IEEE 754 roundTowardZero has it.
+inline constexpr Format kFp16TowardZero{
+    11, -14, 15, Rounding::towardZero, Subnormals::keep, Overflow::infinity};
+
+// The fp16 ("half") of NV40 fragment programs. Documented: 1 sign, 5 exponent and 10 fraction bits. The
+// rounding direction is not documented: nearest even is assumed, compare with kFp16TowardZero. Also assumed:
+// subnormals kept, IEEE infinities and NaN.
+inline constexpr Format kFp16Nv40{11, -14, 15, Rounding::nearestEven, Subnormals::keep, Overflow::infinity};
+
+// bfloat16: binary32 with 8 significand bits. Documented: the layout. Assumed: an arithmetic that rounds each
+// result to nearest even and keeps subnormals; real units accumulate in binary32 and often flush.
+inline constexpr Format kBf16{8, -126, 127, Rounding::nearestEven, Subnormals::keep, Overflow::infinity};
+
+// The 24-bit float of R300 to R400 fragment programs: 1 sign, 7 exponent and 16 fraction bits. Documented:
+// the layout. From a single source: truncation, no NaN, no infinities, no subnormals; so all 127 non-zero
+// exponent codes are numbers, exponents -62 to 64. Assumed: a zero keeps its sign; 0/0 is +0. The hardware
+// divides as reciprocal times multiply; Rounded's own division is correctly truncated, the profile chooses.
+inline constexpr Format kFp24R300{17, -62, 64, Rounding::towardZero, Subnormals::flush, Overflow::saturate};
+
+struct NamedFormat {
+    std::string_view name;
+    Format format;
+};
+
+// Every format above under the name that options and reports use.
+inline constexpr std::array kNamedFormats{
+    NamedFormat{"fp32", kFp32},
+    NamedFormat{"fp32-flush", kFp32Flush},
+    NamedFormat{"fp32-toward-zero", kFp32TowardZero},
+    NamedFormat{"fp32-nv40", kFp32Nv40},
+    NamedFormat{"fp16", kFp16},
+    NamedFormat{"fp16-toward-zero", kFp16TowardZero},
+    NamedFormat{"fp16-nv40", kFp16Nv40},
+    NamedFormat{"bf16", kBf16},
+    NamedFormat{"fp24-r300", kFp24R300},
+};
+constexpr const auto& namedFormats() { return kNamedFormats; }
+
+}  // namespace etalon

@@ -1,0 +1,34 @@
+// Profiles: named sets of choices for arithmetic, storage and fixed function. What a run differs in from another
+// run of the same scene is this, and nothing else.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "raster/render_target.h"
+#include "raster/sampler.h"
+
+namespace etalon {
+
+// The number type that fragments are shaded in.
+enum class FragmentArithmetic : uint8_t { truth, fp64, fp32, fp32Flush, fp32Nv40, fp16, fp16Nv40, bf16, fp24R300 };
+
+struct Profile {
+    std::string_view name;
+    std::string_view meaning;  // one line, with what is documented and what is assumed
+    FragmentArithmetic fragment = FragmentArithmetic::fp32;
+    RasterReal vertex = RasterReal::fp32;  // vertex transforms and depth
+    DepthFormat depth = DepthFormat::d32f;
+    DepthRounding depthRounding = DepthRounding::exact;
+    int subpixelBits = 8;
+    int textureFractionBits = kExactFraction;
+    Filter textureFilter = Filter::kBilinear;  // of float textures
+};
+
+// All profiles; the first is the default.
+std::span<const Profile> profiles();
+
+// The profile of this name, or null.
+const Profile* findProfile(std::string_view name);
+
+}  // namespace etalon

@@ -1,0 +1,125 @@
+// Textures as kernel texts see them: a handle on stored texels and fetches by integer coordinates.
+// The GLSL counterpart is raster/kernels/texture_scope.glsl (texelFetch of a sampler2DArray).
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "numeric/kernel_types.h"
+#include "numeric/number_lanes.h"
+#include "raster/image.h"
+
+namespace etalon {
+
+// A view of an image (one layer), of a cube map (six layers: the faces) or of several images of one shape,
+// with texels stored as float or double. Does not own the texels: the images outlive the view.
+class TextureView {
+  public:
+    static constexpr int kMaxLayers = 6;
+
+    TextureView() = default;
+    explicit TextureView(const Image<float>& image) {
+        setShape(image), layers_[0].narrow = image.values().data();
+    }
+    explicit TextureView(const Image<double>& image) {
+        setShape(image), isDouble_ = true, layers_[0].wide = image.values().data();
+    }
+    // All six faces have the same size and channels.
+    explicit TextureView(const CubeMap<float>& cube) : TextureView(cube.faces[0]) {
+        setFaces(cube, [](Layer& layer, const Image<float>& face) { layer.narrow = face.values().data(); });
+    }
+    explicit TextureView(const CubeMap<double>& cube) : TextureView(cube.faces[0]) {
+        setFaces(cube, [](Layer& layer, const Image<double>& face) { layer.wide = face.values().data(); });
+    }
+
+    int width() const { return width_; }
+    int height() const { return height_; }
+    int channels() const { return channels_; }
+
+    // The stored value; 0 <= layer < layers, 0 <= channel < channels(), 0 <= x < width(), 0 <= y < height().
+    double stored(int layer, int channel, int x, int y) const {
+        const size_t i =
+            (static_cast<size_t>(channel) * static_cast<size_t>(height_) + static_cast<size_t>(y)) *
+                static_cast<size_t>(width_) +
+            static_cast<size_t>(x);
+        const Layer& l = layers_[static_cast<size_t>(layer)];
+        return isDouble_ ? l.wide[i] : static_cast<double>(l.narrow[i]);
+    }
+
+  private:
+    union Layer {
+        const float* narrow = nullptr;
+        const double* wide;
+    };
+
+    template <class S>
+    void setShape(const Image<S>& image) {
+        ETALON_CHECK(!image.empty(), "texture of {}x{}", image.width(), image.height());
+        width_ = image.width(), height_ = image.height(), channels_ = image.channels();
+    }
+    template <class S, class Set>
+    void setFaces(const CubeMap<S>& cube, Set set) {
+        for (size_t f = 0; f < cube.faces.size(); f++) {
+            const Image<S>& face = cube.faces[f];
+            ETALON_CHECK(face.width() == width_ && face.height() == width_ && face.channels() == channels_,
+                         "cube face {} is {}x{} with {} channels, face 0 is {}x{} with {}", f, face.width(),
+                         face.height(), face.channels(), width_, height_, channels_);
+            set(layers_[f], face);
+        }
+    }
+
+    std::array<Layer, kMaxLayers> layers_{};
+    int width_ = 0, height_ = 0, channels_ = 0;
+    bool isDouble_ = false;
+};
+
+// The scalar type that texels and results of arithmetic in T are stored as: float for float and its lanes,
+// else double (exact for every rounded format; truth is rounded to double).
+template <class T>
+struct TexelStorageOf {
+    using Type = double;
+};
+template <>
+struct TexelStorageOf<float> {
+    using Type = float;
+};
+template <int N>
+struct TexelStorageOf<Lanes<float, N>> {
+    using Type = float;
+};
+template <class T>
+using TexelStorage = typename TexelStorageOf<T>::Type;
+
+// Moves stored texels into the number type T, each rounded once to T, and back.
+template <class T>
+struct TexelFetch {
+    static constexpr int kCount = NumberTraits<T>::lanes;
+    using Integer = typename NumberTraits<T>::Integer;
+
+    // The texels at per-lane coordinates inside the texture.
+    static T of(const TextureView& t, Integer layer, int channel, Integer x, Integer y) {
+        if constexpr (kCount == 1)
+            return T(t.stored(layer, channel, x, y));
+        else
+            return generateNumber<T>([&](int i) { return t.stored(layer[i], channel, x[i], y[i]); });
+    }
+    // One texel per lane, contiguous from `from`.
+    template <class Stored>
+    static T contiguous(const Stored* from) {
+        if constexpr (std::is_same_v<T, Lanes<Stored, kCount>>)
+            return T::load(from);
+        else
+            return generateNumber<T>([&](int i) { return static_cast<double>(from[i]); });
+    }
+    // The first `active` lanes, each rounded once to Stored.
+    template <class Stored>
+    static void store(const T& value, Stored* to, int active) {
+        if constexpr (std::is_same_v<T, Lanes<Stored, kCount>>)
+            storeActive(value, to, active);
+        else
+            for (int i = 0; i < active; i++) to[i] = static_cast<Stored>(numberLane(value, i));
+    }
+};
+
+}  // namespace etalon

@@ -1,0 +1,72 @@
+"""What the tests of the command share: run it in a new folder, look at exit code, messages and files."""
+import os
+import pathlib
+import shutil
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+
+NOBODY = 65534  # user without rights, when the tests run as root, whom no permission stops
+
+
+class CliCase(unittest.TestCase):
+    program = None
+
+    def setUp(self):
+        self.scratch = tempfile.TemporaryDirectory()
+        self.folder = pathlib.Path(self.scratch.name)
+        os.chmod(self.folder, 0o755)
+
+    def tearDown(self):
+        for path in self.folder.rglob("*"):
+            if path.is_dir():
+                os.chmod(path, 0o755)
+        self.scratch.cleanup()
+
+    def run_program(self, *arguments, program=None, **options):
+        return subprocess.run([program or self.program, *map(str, arguments)], cwd=self.folder, text=True,
+                              stdout=options.pop("stdout", subprocess.PIPE), stderr=subprocess.PIPE,
+                              timeout=60, check=False, **options)
+
+    def expect(self, code, *arguments, **options):
+        """Runs and checks the exit code; errors are one line on standard error, success is silent there."""
+        result = self.run_program(*arguments, **options)
+        self.assertEqual(result.returncode, code, result.stdout or "" + result.stderr)
+        lines = result.stderr.splitlines()
+        if code in (2, 3):
+            self.assertEqual(len(lines), 1, result.stderr)
+            self.assertTrue(lines[0].startswith("etalon: "), lines[0])
+        else:
+            self.assertEqual(lines, [])
+        return result
+
+    def expect_error(self, text, *arguments, **options):
+        result = self.expect(2, *arguments, **options)
+        self.assertIn(text, result.stderr)
+        return result
+
+    def unprivileged(self):
+        """Options of run_program that run a copy of the program as a user whom permissions stop."""
+        if os.geteuid() != 0:
+            return {}
+        copy = self.folder / "program"
+        shutil.copy(self.program, copy)
+        os.chmod(copy, 0o755)
+        return {"program": copy, "preexec_fn": lambda: os.setuid(NOBODY)}
+
+    def files(self):
+        return sorted(str(path.relative_to(self.folder)) for path in self.folder.rglob("*") if path.is_file())
+
+
+def pfm(width, height, values):
+    """The bytes of a colour PFM file, rows from the bottom up."""
+    return f"PF\n{width} {height}\n-1.0\n".encode() + struct.pack(f"<{len(values)}f", *values)
+
+
+def main():
+    if len(sys.argv) < 2:
+        sys.exit(f"usage: {sys.argv[0]} PROGRAM [unittest options]")
+    CliCase.program = str(pathlib.Path(sys.argv[1]).resolve())
+    unittest.main(argv=[sys.argv[0], *sys.argv[2:]], module="__main__")
