@@ -136,6 +136,8 @@ bool describesEncoding(std::string_view name) {
 
 std::vector<std::byte> encode(const std::string& formatName, const OIIO::ImageSpec& spec,
                               const std::function<void(int firstRow, int rows, std::byte*)>& packRows) {
+    // The library's remarks on standard error.
+    OIIO::attribute("debug", 0);
     OIIO::Filesystem::IOVecOutput memory;
     auto output = OIIO::ImageOutput::create(formatName, &memory);
     ETALON_CHECK(output != nullptr, "no encoder for {}: {}", formatName, OIIO::geterror());

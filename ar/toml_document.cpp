@@ -67,6 +67,38 @@ std::string readText(const std::filesystem::path& path) {
     return text;
 }
 
+// Line of the first character outside ASCII that stands neither in a comment nor in a one-line string; 0:
+// none. toml++ 3.3 runs into undefined behaviour where it asks whether such a character is white space (found
+// with UBSan), so that it must not see one. TOML itself allows them in multi-line strings too.
+int lineOfStrayCharacter(std::string_view text) {
+    constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+    size_t i = text.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0;
+    int line = 1;
+    // What the current position is in: nothing (0), a comment (#) or a one-line string (its quote).
+    char inside = 0;
+    for (; i < text.size(); i++) {
+        const char c = text[i];
+        if (c == '\n') {
+            line++;
+            inside = 0;
+        } else if (inside == 0) {
+            if (static_cast<unsigned char>(c) >= 0x80) return line;
+            // Three quotes open or close a multi-line string, whose text is then checked like everything
+            // outside.
+            const bool isTriple = (c == '"' || c == '\'') && text.substr(i, 3) == std::string(3, c);
+            if (isTriple)
+                i += 2;
+            else if (c == '#' || c == '"' || c == '\'')
+                inside = c;
+        } else if (inside == '"' && c == '\\') {
+            i++;
+        } else if (inside != '#' && c == inside) {
+            inside = 0;
+        }
+    }
+    return 0;
+}
+
 }  // namespace
 
 TomlValue readToml(const std::filesystem::path& path) {

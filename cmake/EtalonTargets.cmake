@@ -13,8 +13,8 @@ if(ETALON_ARCH)
 elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   target_compile_options(etalon_numeric_flags INTERFACE -march=x86-64-v2)
 endif()
-# A note about parameter passing that g++ prints for wide vectors; nothing passes them across objects.
-target_compile_options(etalon_numeric_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-psabi>)
+# A note about passing wide vectors between functions; nothing passes them across objects.
+target_compile_options(etalon_numeric_flags INTERFACE -Wno-psabi)
 
 # Warnings for our own code only; not exported.
 add_library(etalon_warnings INTERFACE)

@@ -5,9 +5,8 @@
 //   u = 1/2 - longitude / (2 pi), v = 1/2 - latitude / pi:
 // the middle of the image is +Z, +X is a quarter from its left border, -X a quarter from its right one, the
 // upper border is +Y. Texel centres are at ((i + 1/2) / width, (j + 1/2) / height). OpenEXR's own pixel
-// positions put the centres of the first and the last pixel on the borders instead (u = i / (width - 1)),
-// where both columns would show the same direction and each pole a whole row; files in practice follow the
-// texel-centre rule.
+// positions put the centres of the first and the last pixel on the borders instead (u = i / (width - 1)), so
+// that both columns show the same direction and each pole has a row of its own; that is not followed.
 //
 // Degenerate directions: straight up and down have longitude 0, the zero direction is +Z; NaN counts as u = 0
 // or v = 0. The squares of x and z neither overflow nor vanish in the number type.

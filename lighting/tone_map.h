@@ -43,6 +43,9 @@ inline constexpr double kMaxExposureStops = 64.0;
 // 2^stops, exact for whole stops. |stops| <= kMaxExposureStops.
 double exposureScale(double stops);
 
+// See toneMap.
+inline constexpr double kToneMapFloatErrorLsb = 0x1p-12;
+
 // Each channel of linear Rec.709 radiance times 2^exposureStops, mapped, encoded as sRGB and quantised:
 // floor(255 v + 1/2), each operation rounded in T. NaN and negative values give 0, positive infinity 255.
 // In float a byte differs from that of exact arithmetic only where 255 v + 1/2 is within
@@ -75,8 +78,6 @@ Image<uint8_t> toneMap(const Image<float>& radiance, ToneMap operation, double e
     });
     return bytes;
 }
-inline constexpr double kToneMapFloatErrorLsb = 0x1p-12;
-
 // The same in the default profile: float arithmetic in lanes.
 Image<uint8_t> toneMap(const Image<float>& radiance, ToneMap operation, double exposureStops,
                        int threads = 0);

@@ -20,7 +20,7 @@ inline constexpr int kMaxBlurRadius = 65536;
 // Relative error of a weight against the true normalised Gaussian: kGaussianWeightRelativeError.
 std::vector<double> gaussianWeights(int radius, double sigma);
 
-// The rounded exponent of e, up to 70, dominates.
+// The rounding of the exponent of e, up to 70, dominates.
 inline constexpr double kGaussianWeightRelativeError = 0x1p-45;
 
 // What blur.glsl reads, and the text, over T: the weights and one contiguous row of texels per tap.
@@ -38,15 +38,21 @@ struct BlurKernel {
 #include "raster/kernels/blur.glsl"
 };
 
+// See blurGaussian.
+inline constexpr double kBlurRelativeErrorPerTap = 0x1p-23;
+
 // Blurs every channel with gaussianWeights(radius, sigma), first along rows, then along columns; beyond the
 // image the border pixel repeats. T is the number type of the arithmetic (float, double, lanes of them, a
 // rounded format, truth); results between the passes are stored as float where T computes in float, else as
-// double. Per pixel and pass the sum runs from the outermost pair of taps, w_k (before + after), to the
-// centre, so that neither threads, lanes nor mirroring the image change a bit. Radius 0 returns the image
-// unchanged, bit for bit; the radius may exceed the image. A NaN or infinite pixel makes every pixel within
-// the radius in x and y NaN or infinite (weights of 0 included). Pixel values up to half the largest number
-// of T. Error in float against exact arithmetic on non-negative images: relative 2 (radius + 3) 2^-24
-// (kBlurRelativeErrorPerTap); on others the same times the blur of the absolute values. An image of one
+// double.
+//
+// Per pixel and pass the sum runs from the outermost pair of taps, w_k (before + after), to the centre, so
+// that neither threads, lanes nor mirroring the image change a bit. Radius 0 returns the image unchanged, bit
+// for bit; the radius may exceed the image. A NaN or infinite pixel makes every pixel within the radius in x
+// and y NaN or infinite (weights of 0 included). Pixels may go up to half the largest number of T.
+//
+// Error in float against exact arithmetic on non-negative images: relative (radius + 3)
+// kBlurRelativeErrorPerTap; on others the same times the blur of the absolute values. An image of one
 // constant is reproduced to that bound.
 template <class T>
 Image<float> blurGaussian(const Image<float>& image, int radius, double sigma, int threads = 0) {
@@ -103,8 +109,5 @@ Image<float> blurGaussian(const Image<float>& image, int radius, double sigma, i
 
 // The same in the default profile: float arithmetic in lanes.
 Image<float> blurGaussian(const Image<float>& image, int radius, double sigma, int threads = 0);
-
-// Relative error of blurGaussian in float per tap of radius + 3, see above.
-inline constexpr double kBlurRelativeErrorPerTap = 0x1p-23;
 
 }  // namespace etalon

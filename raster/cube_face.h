@@ -1,18 +1,24 @@
 // Cube-map faces: raster rule 9. The texts are raster/kernels/cube_face.glsl.
 //
-// Faces in the order +X -X +Y -Y +Z -Z with the face table of [VulkanSpec, "Cube Map Face Selection"]:
-//   face  major  sc  tc      s = (sc / |major| + 1) / 2, t = (tc / |major| + 1) / 2, row 0 of a face at t = 0
-//   +X     x    -z  -y       Ties of the largest magnitude go to Z, then Y, then X [D3D11.3].
-//   -X     x     z  -y
-//   +Y     y     x   z       A quotient that is NaN counts as 0: the zero direction is the centre of +Z, and
-//   -Y     y     x  -z       every direction with NaN or infinite components has a face, and s and t in [0,
-//   1] +Z     z     x  -y       (comparisons with NaN are false). -Z     z    -x  -y
-// The direction's length is arbitrary as long as no component that matters is denormal.
+// Faces in the order +X -X +Y -Y +Z -Z, with the face table of [VulkanSpec, "Cube Map Face Selection"]:
+//   face  major  sc  tc
+//   +X      x    -z  -y
+//   -X      x     z  -y
+//   +Y      y     x   z
+//   -Y      y     x  -z
+//   +Z      z     x  -y
+//   -Z      z    -x  -y
+// s = (sc / |major| + 1) / 2 to the right, t = (tc / |major| + 1) / 2 downwards; row 0 of a face is at t = 0.
+// Ties of the largest magnitude go to Z, then Y, then X, as in [D3D11.3].
+//
+// Degenerate directions: comparisons with NaN are false and a quotient that is NaN counts as 0. So the zero
+// direction is the centre of +Z, and every direction with NaN or infinite components has a face, and s and t
+// in [0, 1]. The direction's length is arbitrary as long as its largest component is not subnormal.
 //
 // Bilinear sampling is seamless: a texel beyond a face's border is the adjoining texel of the neighbouring
-// face; at a corner, where only three texels meet, the missing fourth counts as the mean of the three, as the
-// Vulkan specification recommends. Fractions, tap order and hull are those of raster/sampler.h; in `Sampling`
-// only the width (the cube's size), the filter and the fraction bits are used.
+// face; at a corner, where only three texels meet, the missing fourth counts as their mean, as the Vulkan
+// specification recommends. Fractions, tap order and hull are those of raster/sampler.h; in `Sampling` only
+// the width (the cube's size), the filter and the fraction bits are used.
 #pragma once
 
 #include "numeric/kernel_types.h"

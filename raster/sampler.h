@@ -5,20 +5,21 @@
 //  1. u is folded into [0, 1]: clamp; repeat u - floor(u); mirror min(p, 2 - p) with p = u - 2 floor(u / 2).
 //     NaN becomes 0. An infinite u becomes its border with clamp, else 0.
 //  2. nearest: texel floor(u * width), at most width - 1.
-//     bilinear: position u * width - 0.5; its floor is the texel, the rest the fraction f, exact for
-//     positions >= 0.
+//     bilinear: the position is u * width - 0.5, its floor the texel, the rest the fraction f (exact for
+//     positions >= 0).
 //  3. With n fraction bits f is rounded half up to a multiple of 2^-n, exactly: floor(f 2^n), plus one if
 //     f 2^n - floor(f 2^n) >= 1/2. A fraction of 1 is the next texel with fraction 0.
-//  4. The neighbours -1 and width are wrapped: clamp and mirror repeat the border texel, repeat the opposite
-//  one.
-//  5. a + (b - a) f along x on the upper row, then on the lower row, then along y; each clamped to [min(a,
-//  b),
-//     max(a, b)], and a itself where f is 0.
+//  4. The neighbours -1 and width are wrapped: clamp and mirror repeat the border texel, repeat takes the
+//     opposite one.
+//  5. a + (b - a) f along x on the upper row, then on the lower row, then along y; a itself where f is 0.
+//
 // So a constant image gives exactly its constant, results never leave the hull of the four texels, texels of
-// weight 0 have no influence, and a non-finite texel of another weight gives NaN or infinity. Texels up to
-// half the largest number of T. Error in float against exact arithmetic, u in [0, 1], exact fractions, W and
-// D the size and the largest difference of neighbouring texels on an axis, V the largest texel magnitude:
-//   |error| <= 2^-23 (W_x D_x + W_y D_y + 5 V)    (bilinearFloatErrorBound)
+// weight 0 have no influence, and a non-finite texel of another weight gives NaN or infinity. Texels may go
+// up to half the largest number of T.
+//
+// Error in float against exact arithmetic, u in [0, 1], exact fractions; W and D the size and the largest
+// difference of neighbouring texels on an axis, V the largest texel magnitude (bilinearFloatErrorBound):
+//   |error| <= 2^-23 (W_x D_x + W_y D_y + 5 V)
 #pragma once
 
 #include "numeric/check.h"

@@ -61,15 +61,10 @@ TexelPair texelPair(real position, int fractionBits) {
     return pair;
 }
 
-// From a (fraction 0) to b: exactly a where the fraction is 0 or a equals b, never outside [a, b], exact for
-// linear ramps up to one rounding. NaN passes through unless its weight is 0.
+// From a (fraction 0) towards b, 0 <= fraction < 1. Never outside [a, b]: the product is at most the largest
+// number below the rounded b - a, so at most the exact b - a, and rounding is monotone.
 real lerpInside(real a, real b, real fraction) {
-    real x = a + (b - a) * fraction;
-    real lo = minOf(a, b);
-    real hi = maxOf(a, b);
-    x = select(x < lo, lo, x);
-    x = select(hi < x, hi, x);
-    return select(fraction == real(0.0), a, x);
+    return select(fraction == real(0.0), a, a + (b - a) * fraction);
 }
 vec3 lerpInside3(vec3 a, vec3 b, real fraction) {
     return vec3(lerpInside(a.x, b.x, fraction), lerpInside(a.y, b.y, fraction),

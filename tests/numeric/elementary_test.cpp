@@ -10,6 +10,7 @@
 #include <bit>
 #include <cmath>
 #include <functional>
+#include <initializer_list>
 #include <limits>
 #include <vector>
 
@@ -117,31 +118,44 @@ void checkBound(const char* name, const Worst& worst, double bound) {
     CHECK(worst.measured >= kCases * 9 / 10);
 }
 
+// C++ leaves the order of operands open: each random number is drawn in a statement of its own.
 double sign(RandomNumbers& random) { return random.below(2) == 0 ? 1.0 : -1.0; }
 // 2^[lo, hi) with a random significand.
 double spread(RandomNumbers& random, int lo, int hi) {
-    return std::ldexp(random.uniform(1.0, 2.0), lo + random.below(hi - lo));
+    const double significand = random.uniform(1.0, 2.0);
+    return std::ldexp(significand, lo + random.below(hi - lo));
 }
+double signedSpread(RandomNumbers& random, int lo, int hi) {
+    const double s = sign(random);
+    return s * spread(random, lo, hi);
+}
+double oneOf(RandomNumbers& random, std::initializer_list<double> values) {
+    return values.begin()[random.below(static_cast<int>(values.size()))];
+}
+// 1 +- 2^[lo, hi).
+double nearOne(RandomNumbers& random, int lo, int hi) { return 1.0 + signedSpread(random, lo, hi); }
 
 // Plane vectors: in the unit square, of all magnitudes, near the ends of the intervals of the method, near
 // the axes, and with small whole coordinates.
 Arguments planeVector(RandomNumbers& random, int kind, int largestExponent) {
-    constexpr std::array<double, 6> kEnds{0.25, 0.5, 0.75, 1.0, 4.0 / 3.0, 4.0};
-    const double x = sign(random) * spread(random, -20, 20);
     switch (kind % 5) {
         case 0:
             return {random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0)};
         case 1:
-            return {sign(random) * spread(random, -largestExponent, largestExponent),
-                    sign(random) * spread(random, -largestExponent, largestExponent)};
-        case 2:
-            return {sign(random) * x * kEnds[static_cast<size_t>(random.below(6))] *
-                        (1.0 + sign(random) * spread(random, -52, -2)),
-                    x};
+            return {signedSpread(random, -largestExponent, largestExponent),
+                    signedSpread(random, -largestExponent, largestExponent)};
+        case 2: {
+            const double x = signedSpread(random, -20, 20);
+            const double slope =
+                oneOf(random, {0.25, 0.5, 0.75, 1.0, 4.0 / 3.0, 4.0}) * nearOne(random, -52, -2);
+            return {sign(random) * slope * x, x};
+        }
         case 3:
-            return {sign(random) * spread(random, -40, 0), sign(random)};
-        default:
-            return {sign(random) * (1 + random.below(100)), sign(random) * (1 + random.below(100))};
+            return {signedSpread(random, -40, 0), sign(random)};
+        default: {
+            const double y = 1 + random.below(100), x = 1 + random.below(100);
+            return {sign(random) * y, sign(random) * x};
+        }
     }
 }
 Arguments planeVectorInDouble(RandomNumbers& random, int kind) { return planeVector(random, kind, 440); }
@@ -153,25 +167,23 @@ Arguments planeVectorInFloat(RandomNumbers& random, int kind) {
 // Bases and exponents: specular lobes, transfer curves, bases near 1 with large exponents, everything with a
 // result in range, bases near the ends of the intervals of the method, and small whole numbers.
 Arguments powerArguments(RandomNumbers& random, int kind, double log2Range) {
-    constexpr std::array<double, 4> kGammas{2.4, 1.0 / 2.4, 2.2, 1.0 / 2.2};
-    constexpr std::array<double, 4> kEnds{0.8671875, 1.1171875, 0x1.6a09e667f3bcdp+0, 1.0};
-    const double nearOne = 1.0 + sign(random) * spread(random, -23, -1) * 0.99;
-    const double anyBase = spread(random, static_cast<int>(-log2Range), static_cast<int>(log2Range));
-    const double share = random.uniform(-1.0, 1.0) * log2Range;
+    // An exponent that gives a result anywhere in the range.
+    const double log2Result = random.uniform(-1.0, 1.0) * log2Range;
+    const auto withExponent = [=](double base) { return Arguments{base, log2Result / std::log2(base)}; };
+    const int largestExponent = static_cast<int>(log2Range);
     switch (kind % 6) {
         case 0:
             return {random.uniform(0.5, 1.0), random.uniform(0.0, 0.9 * log2Range)};
         case 1:
-            return {random.uniform(0.0, 1.0), kGammas[static_cast<size_t>(random.below(4))]};
+            return {random.uniform(0.0, 1.0), oneOf(random, {2.4, 1.0 / 2.4, 2.2, 1.0 / 2.2})};
         case 2:
-            return {nearOne, share / std::log2(nearOne)};
+            return withExponent(nearOne(random, -23, -2));
         case 3:
-            return {anyBase, share / std::log2(anyBase)};
+            return withExponent(spread(random, -largestExponent, largestExponent));
         case 4: {
-            const double end =
-                kEnds[static_cast<size_t>(random.below(4))] * (1.0 + sign(random) * spread(random, -23, -9));
-            const double base = std::ldexp(end, random.below(9) - 4);
-            return {base, share / std::log2(base)};
+            const double end = oneOf(random, {0.8671875, 1.1171875, 0x1.6a09e667f3bcdp+0, 1.0});
+            const double base = end * nearOne(random, -23, -9);
+            return withExponent(std::ldexp(base, random.below(9) - 4));
         }
         default:
             return {static_cast<double>(2 + random.below(30)), static_cast<double>(random.below(41) - 20)};
@@ -187,17 +199,11 @@ Arguments powerArgumentsInFloat(RandomNumbers& random, int kind) {
 
 // Angles: near the origin, of all magnitudes, and next to multiples of pi/2 and pi/4.
 Arguments angles(RandomNumbers& random, int kind) {
-    const double multiple = (1 + random.below(1 << (1 + random.below(20)))) * (kPi / 4.0);
-    switch (kind % 4) {
-        case 0:
-            return {random.uniform(-kPi, kPi), 0.0};
-        case 1:
-            return {sign(random) * spread(random, -60, 20), 0.0};
-        case 2:
-            return {sign(random) * multiple, 0.0};
-        default:
-            return {multiple * (1.0 + sign(random) * spread(random, -52, -20)), 0.0};
-    }
+    if (kind % 4 == 0) return {random.uniform(-kPi, kPi), 0.0};
+    if (kind % 4 == 1) return {signedSpread(random, -60, 20), 0.0};
+    const int largest = 1 << (1 + random.below(20));
+    const double multiple = (1 + random.below(largest)) * (kPi / 4.0);
+    return {kind % 4 == 2 ? multiple : -multiple * nearOne(random, -52, -20), 0.0};
 }
 
 Arguments exponents(RandomNumbers& random, int kind) {
@@ -207,7 +213,7 @@ Arguments exponents(RandomNumbers& random, int kind) {
         case 1:
             return {random.uniform(-708.0, 709.0), 0.0};
         default:
-            return {sign(random) * spread(random, -60, 9), 0.0};
+            return {signedSpread(random, -60, 9), 0.0};
     }
 }
 
@@ -226,8 +232,8 @@ std::vector<std::array<S, 2>> mixedArguments() {
         for (double b : special) r.push_back({static_cast<S>(a), static_cast<S>(b)});
     RandomNumbers random(1);
     for (int i = 0; i < 1 << 16; i++) {
-        const double a = spread(random, -30, 30) * (i % 4 == 0 ? -1.0 : 1.0);
-        const double b = i % 2 == 0 ? random.uniform(-4.0, 4.0) : sign(random) * spread(random, -30, 30);
+        const double a = (i % 4 == 0 ? -1.0 : 1.0) * spread(random, -30, 30);
+        const double b = i % 2 == 0 ? random.uniform(-4.0, 4.0) : signedSpread(random, -30, 30);
         r.push_back({static_cast<S>(a), static_cast<S>(b)});
     }
     return r;
@@ -277,7 +283,25 @@ uint64_t laneHash() {
     return hash.value();
 }
 
+// Two neighbours narrowed to float and widened again.
+[[gnu::noinline]] void addNarrowed(const double* from, double* to) {
+    const float a = static_cast<float>(from[0]), b = static_cast<float>(from[1]);
+    to[0] = 1.0 + a;
+    to[1] = 1.0 + b;
+}
+
 }  // namespace
+
+// g++ 12 drops both conversions from -O2 on where it makes vectors of straight-line code
+// (-ftree-slp-vectorize): every float of this project would sometimes be a double. The numeric flags switch
+// that off.
+TEST_CASE("TheCompilerKeepsTheRoundingOfNeighbours") {
+    const double from[2] = {0.1, 0.3};
+    double to[2];
+    addNarrowed(from, to);
+    CHECK(to[0] == 1.0 + 0x1.99999ap-4);
+    CHECK(to[1] == 1.0 + 0x1.333334p-2);
+}
 
 TEST_CASE("Atan2IsWithinItsBound") {
     checkBound("atan2, double", worstError(atan2Of<double>, mpfr_atan2, kDouble, planeVectorInDouble),
@@ -411,8 +435,8 @@ TEST_CASE("SinCosAndExpSpecialCases") {
 }
 
 TEST_CASE("ResultsHaveTheSameBitsEverywhere") {
-    CHECK(scalarHash<float>() == 0);
-    CHECK(scalarHash<double>() == 0);
+    CHECK(scalarHash<float>() == 9317659558363802340u);
+    CHECK(scalarHash<double>() == 5997899917154273317u);
     RandomNumbers random(1);
     Hash hash;
     for (int i = 0; i < 1 << 16; i++) {
@@ -421,7 +445,7 @@ TEST_CASE("ResultsHaveTheSameBitsEverywhere") {
         hash.add(cosOf(angle));
         hash.add(expOf(exponents(random, i).a));
     }
-    CHECK(hash.value() == 0);
+    CHECK(hash.value() == 3225495395883808657u);
 }
 
 TEST_CASE_TEMPLATE("LanesGiveTheBitsOfTheScalar", L, Lanes<float, 1>, Lanes<float, 2>, Lanes<float, 4>,

@@ -15,7 +15,7 @@ using namespace etalon;
 namespace {
 
 // Triangles that CoverageEqualsTheBigIntegerOracle draws at the least.
-constexpr int kOracleTriangles = 200000;
+constexpr int kOracleTriangles = 150000;
 
 struct Setting {
     int width, height;

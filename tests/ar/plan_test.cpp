@@ -1,0 +1,167 @@
+#include "ar/plan.h"
+
+#include <doctest/doctest.h>
+
+#include <nlohmann/json.hpp>
+#include <set>
+
+using namespace etalon;
+
+namespace {
+
+Material lambertMaterial() {
+    Material material;
+    material.name = "matt";
+    material.diffuse = glm::dvec3(0.5);
+    return material;
+}
+
+Material mirrorMaterial() {
+    Material material;
+    material.name = "chrome";
+    material.kind = MaterialKind::mirror;
+    material.reflectance = glm::dvec3(0.9);
+    return material;
+}
+
+MeshObject meshOf(const std::string& name, size_t material) {
+    MeshObject mesh;
+    mesh.name = name;
+    mesh.file = name + ".obj";
+    mesh.material = material;
+    mesh.objectToWorld = {glm::dmat4(1)};
+    return mesh;
+}
+
+// A matt mesh in nothing: the least that can be drawn.
+Scene bareScene() {
+    Scene scene;
+    scene.camera.width = 64;
+    scene.camera.height = 48;
+    scene.materials = {lambertMaterial()};
+    scene.meshes = {meshOf("thing", 0)};
+    scene.output.images = {"beauty"};
+    return scene;
+}
+
+// Every effect there is, each with an object that shows it.
+Scene fullScene() {
+    Scene scene = bareScene();
+    Material gloss = lambertMaterial();
+    gloss.kind = MaterialKind::blinnPhong;
+    scene.materials.push_back(gloss);
+    scene.materials.push_back(mirrorMaterial());
+    scene.meshes.push_back(meshOf("glossy", 1));
+    scene.meshes.push_back(meshOf("ball", 2));
+    scene.meshes.back().reflection = Reflection::scene;
+    scene.meshes.push_back(meshOf("plate", 2));
+    scene.lights.emplace_back();
+    scene.ambient = glm::dvec3(0.1);
+    scene.environment.kind = EnvironmentKind::file;
+    return scene;
+}
+
+std::set<std::string> running(const Plan& plan) {
+    std::set<std::string> names;
+    for (const PlanPass& pass : plan.passes)
+        if (pass.runs) names.insert(pass.name);
+    return names;
+}
+
+}  // namespace
+
+TEST_CASE("OnlyTheNeededPassesRun") {
+    CHECK(running(makePlan(bareScene(), {})) == std::set<std::string>{"geometry", "visibility", "beauty"});
+    const std::set<std::string> all{"geometry",         "visibility",  "ambient", "diffuse", "specular",
+                                    "mirror",           "background",  "beauty",  "cube map of ball",
+                                    "environment image", "environment cube map"};
+    CHECK(running(makePlan(fullScene(), {})) == all);
+}
+
+TEST_CASE("AnEffectThatNoOutputNeedsAddsNoPass") {
+    PlanRequest request;
+    request.outputs = {"depth", "ids", "normals"};
+    CHECK(running(makePlan(fullScene(), request)) == running(makePlan(bareScene(), request)));
+    const Plan plan = makePlan(fullScene(), request);
+    CHECK_FALSE(plan.readEnvironment);
+    CHECK_FALSE(plan.environmentCube);
+}
+
+TEST_CASE("EachEffectsPassesVanishWhenNothingNeedsThem") {
+    struct Case {
+        const char* what;
+        void (*remove)(Scene&);
+        std::set<std::string> gone;
+    };
+    const Case cases[] = {
+        {"lights", [](Scene& s) { s.lights.clear(); }, {"diffuse", "specular"}},
+        {"ambient", [](Scene& s) { s.ambient = glm::dvec3(0); }, {"ambient"}},
+        {"gloss", [](Scene& s) { s.meshes.erase(s.meshes.begin() + 1); }, {"specular"}},
+        {"ball", [](Scene& s) { s.meshes.erase(s.meshes.begin() + 2); }, {"cube map of ball"}},
+        {"mirrors", [](Scene& s) { s.meshes.resize(2); }, {"cube map of ball", "mirror", "environment cube map"}},
+        {"plate", [](Scene& s) { s.meshes.resize(3); }, {"environment cube map"}},
+        {"environment",
+         [](Scene& s) { s.environment.kind = EnvironmentKind::none; },
+         {"environment image", "environment cube map", "background"}},
+        {"beauty", [](Scene& s) { s.output.images = {"diffuse"}; },
+         {"ambient", "specular", "mirror", "background", "beauty", "cube map of ball", "environment image",
+          "environment cube map"}},
+    };
+    const std::set<std::string> all = running(makePlan(fullScene(), {}));
+    for (const Case& c : cases) {
+        Scene scene = fullScene();
+        c.remove(scene);
+        std::set<std::string> expected = all;
+        for (const std::string& name : c.gone) expected.erase(name);
+        CHECK_MESSAGE(running(makePlan(scene, {})) == expected, c.what);
+    }
+}
+
+TEST_CASE("HiddenObjectsNeedNoPasses") {
+    const Scene scene = fullScene();
+    VisibilityFacts facts;
+    facts.backgroundVisible = false;
+    facts.objectVisible = {true, false, false, false};
+    const Plan plan = makePlan(scene, {}, &facts);
+    CHECK(running(plan) == std::set<std::string>{"geometry", "visibility", "ambient", "diffuse", "beauty"});
+    CHECK(plan.find("mirror")->reason == "no mirror is visible");
+    CHECK(plan.find("background")->reason == "objects cover every pixel");
+    // A mirror that only a cube map sees still needs the environment.
+    facts.objectVisible = {true, false, true, false};
+    CHECK(makePlan(scene, {}, &facts).environmentCube);
+}
+
+TEST_CASE("APngNeedsTheBeautyWhateverTheOutputsAre") {
+    PlanRequest request;
+    request.outputs = {"depth"};
+    request.png = true;
+    const Plan plan = makePlan(bareScene(), request);
+    CHECK(plan.find("beauty")->runs);
+    CHECK(plan.find("tone mapping")->runs);
+}
+
+TEST_CASE("EveryPassHasAReasonAndNeedsPassesOfThePlan") {
+    for (const Scene& scene : {bareScene(), fullScene()}) {
+        const Plan plan = makePlan(scene, {});
+        for (const PlanPass& pass : plan.passes) {
+            CHECK_FALSE(pass.reason.empty());
+            for (const std::string& need : pass.needs) {
+                REQUIRE_MESSAGE(plan.find(need) != nullptr, need);
+                if (pass.runs) CHECK_MESSAGE(plan.find(need)->runs, pass.name << " needs " << need);
+            }
+        }
+        const auto json = nlohmann::json::parse(planJson(plan));
+        CHECK(json["passes"].size() == plan.passes.size());
+        CHECK(planText(plan).find("run   visibility") != std::string::npos);
+        CHECK(planDot(plan).find("\"visibility\" -> ") != std::string::npos);
+    }
+}
+
+TEST_CASE("MemoryGrowsWithPixelsAndSamples") {
+    Scene scene = bareScene();
+    const uint64_t small = makePlan(scene, {}).memory_bytes;
+    scene.camera.width *= 2;
+    CHECK(makePlan(scene, {}).memory_bytes == 2 * small);
+    scene.render.samples = 16;
+    CHECK(makePlan(scene, {}).memory_bytes > 4 * small);
+}

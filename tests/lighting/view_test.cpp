@@ -1,0 +1,75 @@
+#include "lighting/view.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "raster/cube_face.h"
+#include "tests/support/random_numbers.h"
+
+using namespace etalon;
+
+namespace {
+
+// Both sides are a few double operations on numbers of size 1 to 1000.
+constexpr double kTolerance = 1e-9;
+
+double row(const glm::dvec4& r, const glm::dvec3& p) { return r.x * p.x + r.y * p.y + r.z * p.z + r.w; }
+
+glm::dvec3 pointOnRay(const View& view, double x_px, double y_px, double depth_m) {
+    const double dx = x_px - view.centreX_px, dy = y_px - view.centreY_px;
+    glm::dvec3 p;
+    for (int k = 0; k < 3; k++)
+        p[k] = view.eye[k] + depth_m * (view.forward[k] + dx * view.perX[k] + dy * view.perY[k]);
+    return p;
+}
+
+void checkThatRaysProjectToTheirPixels(const View& view, RandomNumbers& random, double near_m, double far_m) {
+    for (int i = 0; i < 100; i++) {
+        const double x = random.uniform(0, view.width), y = random.uniform(0, view.height);
+        const double depth_m = random.uniform(near_m, far_m);
+        const glm::dvec3 p = pointOnRay(view, x, y, depth_m);
+        const double w = row(view.worldToClip[3], p);
+        CHECK(w == doctest::Approx(depth_m).epsilon(kTolerance));
+        CHECK((row(view.worldToClip[0], p) / w + 1) / 2 * view.width == doctest::Approx(x).epsilon(kTolerance));
+        CHECK((1 - row(view.worldToClip[1], p) / w) / 2 * view.height == doctest::Approx(y).epsilon(kTolerance));
+        const double z = far_m * (depth_m - near_m) / ((far_m - near_m) * depth_m);
+        CHECK(row(view.worldToClip[2], p) / w == doctest::Approx(z).epsilon(kTolerance));
+    }
+}
+
+}  // namespace
+
+TEST_CASE("CameraRaysProjectToTheirPixels") {
+    RandomNumbers random(4);
+    PinholeCamera camera;
+    camera.width = 320;
+    camera.height = 200;
+    camera.fx = 300;
+    camera.fy = 310;
+    camera.cx = 150;
+    camera.cy = 110.5;
+    camera.position = {1, 2, 3};
+    // A rotation by 90 degrees about +Y: the camera looks along -X.
+    camera.right = {0, 0, -1};
+    camera.backward = {1, 0, 0};
+    checkThatRaysProjectToTheirPixels(cameraView(camera), random, camera.near_m, camera.far_m);
+    const View view = cameraView(camera);
+    CHECK(view.forward.x == -1);
+}
+
+TEST_CASE("CubeFaceRaysAreTheDirectionsOfTheFaceTable") {
+    RandomNumbers random(5);
+    CubeFaceKernel<double> kernel;
+    for (int face = 0; face < kCubeFaces; face++) {
+        const View view = cubeFaceView(static_cast<CubeFace>(face), 64, {3, -1, 2}, 0.5, 20);
+        checkThatRaysProjectToTheirPixels(view, random, 0.5, 20);
+        for (int i = 0; i < 20; i++) {
+            const double s = random.uniform(0, 1), t = random.uniform(0, 1);
+            const glm::dvec3 p = pointOnRay(view, s * 64, t * 64, 1);
+            const auto direction = kernel.cubeDirection(face, s, t);
+            for (int k = 0; k < 3; k++)
+                CHECK(std::fabs(p[k] - view.eye[k] - direction[k]) < kTolerance);
+        }
+    }
+}

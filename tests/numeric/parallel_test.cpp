@@ -1,0 +1,42 @@
+#include "numeric/parallel.h"
+
+#include <doctest/doctest.h>
+
+#include <atomic>
+#include <stdexcept>
+#include <vector>
+
+#include "numeric/check.h"
+#include "numeric/fp_environment.h"
+
+using namespace etalon;
+
+TEST_CASE("EveryItemRunsOnceWhateverTheThreads") {
+    for (int threads : {0, 1, 2, 7}) {
+        std::vector<std::atomic<int>> runs(1000);
+        parallelFor(runs.size(), threads, [&](size_t i) { runs[i]++; });
+        for (const auto& count : runs) CHECK(count == 1);
+    }
+}
+
+TEST_CASE("AnExceptionOfAnItemReachesTheCaller") {
+    CHECK_THROWS_AS(parallelFor(100, 2, [](size_t i) { if (i == 57) throw std::runtime_error("57"); }),
+                    std::runtime_error);
+}
+
+TEST_CASE("AThreadThatFlushesSubnormalsIsRefused") {
+    CHECK(fpEnvironmentIsDefault());
+    {
+        const FlushToZeroScope flush;
+        CHECK_FALSE(fpEnvironmentIsDefault());
+        CHECK_THROWS_AS(parallelFor(1, 1, [](size_t) {}), PreconditionError);
+    }
+    CHECK(fpEnvironmentIsDefault());
+    // A worker thread whose control word an item has changed is refused at its next item, or by the next call.
+    volatile float tiny = 1e-38f;
+    {
+        const FlushToZeroScope flush;
+        CHECK(tiny * 0.5f == 0.0f);
+    }
+    CHECK(tiny * 0.5f != 0.0f);
+}
