@@ -25,13 +25,13 @@ namespace etalon {
 
 namespace {
 
-// Peak memory that loading takes for each byte of the file, by format. Measured with grids of 10 million
-// triangles (ratio rounded up); see docs/scene_format.md.
+// Peak memory that loading takes for each byte of the file, by format: ratios measured with grids of 10
+// million triangles, rounded up (docs/scene_format.md has the figures).
 struct MeshFormat {
     std::string_view extension;
     double memoryPerByte;
 };
-constexpr MeshFormat kFormats[] = {{".obj", 12}, {".ply", 8}, {".gltf", 12}, {".glb", 12}};
+constexpr MeshFormat kFormats[] = {{".obj", 6}, {".ply", 5}, {".gltf", 5}, {".glb", 5}};
 
 // Collects what the library only logs: out-of-range indices of glTF files, whose faces it drops.
 class WarningCollector : public Assimp::Logger {

@@ -104,10 +104,11 @@ glm::dmat4 readTransform(const TableReader& reader) {
 
 MeshObject readMesh(const std::string& file, const TomlValue& value, const std::vector<Material>& materials) {
     constexpr std::string_view kReflections[] = {"environment", "scene"};
+    constexpr std::string_view kSides[] = {"both", "front"};
     const TableReader reader(
         file, value, "[[mesh]]",
         {"name", "file", "material", "translate", "rotate_axis", "rotate_deg", "rotate_xyz_deg", "scale",
-         "transform", "instances", "reflection", "cube_size"});
+         "transform", "instances", "sides", "reflection", "cube_size"});
     MeshObject mesh;
     mesh.line = reader.line();
     if (reader.has("name")) mesh.name = reader.text("name");
@@ -130,6 +131,7 @@ MeshObject readMesh(const std::string& file, const TomlValue& value, const std::
     }
     if (mesh.objectToWorld.empty()) mesh.objectToWorld.push_back(own);
 
+    mesh.twoSided = !reader.has("sides") || reader.choice("sides", kSides) == "both";
     if (material.kind != MaterialKind::mirror)
         for (const char* key : {"reflection", "cube_size"})
             reader.forbid(key, "needs a material of kind 'mirror'");

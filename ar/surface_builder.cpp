@@ -105,6 +105,7 @@ SurfaceScene buildSurfaces(const Scene& scene, std::vector<std::string>& warning
         instance.material = static_cast<uint32_t>(mesh.material);
         instance.toWorld = mesh.objectToWorld[object.placement];
         instance.normalToWorld = normalMatrix(instance.toWorld);
+        instance.twoSided = mesh.twoSided;
         instance.reflection =
             mesh.reflection == Reflection::scene ? SurfaceReflection::scene : SurfaceReflection::environment;
         instance.cubeSize = mesh.cubeSize;

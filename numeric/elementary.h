@@ -54,7 +54,7 @@ inline constexpr double kMaxAngle = 0x1p20;
 
 // Largest errors, in units in the last place of the type at the true result. The tests check them against
 // MPFR.
-inline constexpr double kAtan2ErrorUlp = 0.65;
+inline constexpr double kAtan2ErrorUlp = 0.70;
 inline constexpr double kPowErrorUlp = 0.70;
 inline constexpr double kFloatErrorUlp = 0.500001;
 inline constexpr double kSinErrorUlp = 0.85;

@@ -213,6 +213,9 @@ TEST_CASE("SyntaxAndStructureErrorsNameTheLine") {
         {12, "height = = 4", 12, {"not valid TOML"}},
         {12, "height = 4\nheight = 5", 13, {"not valid TOML", "height"}},
         {9, "exposure = \"abc", 9, {"not valid TOML"}},
+        {9, "exposure = [0,} 1]", 9, {"not valid TOML"}},
+        {9, "exposure = [0,\n } 1]", 10, {"not valid TOML"}},
+        {9, "exposure = }", 9, {"not valid TOML"}},
         {1,
          "ambience = [0.1, 0.2, 0.3]",
          1,
@@ -224,8 +227,21 @@ TEST_CASE("SyntaxAndStructureErrorsNameTheLine") {
         {29, "[mesh]", 29, {"'mesh'", "[[mesh]]"}},
         {44, "[light]", 44, {"'light'", "[[light]]"}},
         {21, "[material]\nred = 3\n[material.rot]", 22, {"[material.red] must be a table", "an integer"}},
-        {10, "[caméra]", 10, {"not valid TOML"}},
     });
+}
+
+TEST_CASE("CharactersOutsideAsciiStandInCommentsAndStringsOnly") {
+    checkAll({
+        {38, "n\u00e4me = 'x'", 38, {"outside ASCII"}},
+        {38, "name = 'x' \u00e4", 38, {"outside ASCII"}},
+        {38, "name = \"\"\"it's\n\u00e4\"\"\"", 39, {"outside ASCII"}},
+        {38, "name = \"\\\u00e4\"", 38, {"outside ASCII"}},
+    });
+    const SceneFolder folder;
+    for (const char* line :
+         {"name = 'Stra\u00dfe'  # gr\u00fcn", "name = \"\\\"\u00e4\"", "name = '''Don't'''  # \u00e4"})
+        CHECK(errorOf(folder, sceneText(38, line)) == "no error");
+    CHECK(errorOf(folder, "\xef\xbb\xbf" + sceneText()) == "no error");
 }
 
 TEST_CASE("WrongTypesAndRangesNameTheKeyAndWhatItMayBe") {

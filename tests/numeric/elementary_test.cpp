@@ -75,7 +75,7 @@ class ErrorMeter {
     }
 
   private:
-    static constexpr int kBits = 96;
+    static constexpr int kBits = 80;
     mpfr_t a_, b_, r_;
 };
 
@@ -85,6 +85,7 @@ struct Worst {
     size_t measured = 0;
 };
 
+// Per function; where it is checked in double and in float, half of them each.
 constexpr size_t kCases = 1 << 20;
 constexpr size_t kBlock = 1 << 12;
 
@@ -115,7 +116,7 @@ void checkBound(const char* name, const Worst& worst, double bound) {
     MESSAGE(fmt::format("{}: largest error {} ulp at {:a}, {:a} of {}", name, worst.ulps, worst.at.a,
                         worst.at.b, worst.measured));
     CHECK(worst.ulps <= bound);
-    CHECK(worst.measured >= kCases * 9 / 10);
+    CHECK(worst.measured >= kCases / 2 * 99 / 100);
 }
 
 // C++ leaves the order of operands open: each random number is drawn in a statement of its own.
@@ -296,7 +297,8 @@ uint64_t laneHash() {
 // (-ftree-slp-vectorize): every float of this project would sometimes be a double. The numeric flags switch
 // that off.
 TEST_CASE("TheCompilerKeepsTheRoundingOfNeighbours") {
-    const double from[2] = {0.1, 0.3};
+    volatile double source = 0.1;  // so that nothing is computed by the compiler itself
+    const double from[2] = {source, 3.0 * source};
     double to[2];
     addNarrowed(from, to);
     CHECK(to[0] == 1.0 + 0x1.99999ap-4);
@@ -304,16 +306,18 @@ TEST_CASE("TheCompilerKeepsTheRoundingOfNeighbours") {
 }
 
 TEST_CASE("Atan2IsWithinItsBound") {
-    checkBound("atan2, double", worstError(atan2Of<double>, mpfr_atan2, kDouble, planeVectorInDouble),
+    checkBound("atan2, double",
+               worstError(atan2Of<double>, mpfr_atan2, kDouble, planeVectorInDouble, kCases / 2),
                kAtan2ErrorUlp);
-    checkBound("atan2, float", worstError(atan2InFloat, mpfr_atan2, kSingle, planeVectorInFloat),
+    checkBound("atan2, float", worstError(atan2InFloat, mpfr_atan2, kSingle, planeVectorInFloat, kCases / 2),
                kFloatErrorUlp);
 }
 
 TEST_CASE("PowIsWithinItsBound") {
-    checkBound("pow, double", worstError(powOf<double>, mpfr_pow, kDouble, powerArgumentsInDouble),
+    checkBound("pow, double",
+               worstError(powOf<double>, mpfr_pow, kDouble, powerArgumentsInDouble, kCases / 2),
                kPowErrorUlp);
-    checkBound("pow, float", worstError(powInFloat, mpfr_pow, kSingle, powerArgumentsInFloat),
+    checkBound("pow, float", worstError(powInFloat, mpfr_pow, kSingle, powerArgumentsInFloat, kCases / 2),
                kFloatErrorUlp);
 }
 

@@ -94,10 +94,12 @@ TEST_CASE("DrawnDepthIsTheConvertedDepth") {
             for (DepthRounding rounding : {DepthRounding::exact, DepthRounding::driver}) {
                 std::vector<ClipVertex> vertices;
                 std::vector<double> z;
+                const double levels = format == DepthFormat::d16 ? 65535 : 16777215;
                 for (int i = 0; i < 64 * 64; i++) {
-                    const double value = random.chance(0.5)
-                                             ? random.uniform(0, 1)
-                                             : std::ldexp(random.uniform(0.5, 1), -random.integer(0, 90));
+                    double value = random.uniform(0, 1);
+                    if (random.chance(0.2)) value = std::ldexp(value, -random.integer(0, 90));
+                    // Next to a tie of the format.
+                    if (random.chance(0.6)) value = (std::floor(value * levels) + 0.5) / levels;
                     z.push_back(real == RasterReal::fp32 ? static_cast<float>(value) : value);
                     addPixel(vertices, viewport, i % 64, i / 64, z.back());
                 }

@@ -197,7 +197,10 @@ TEST_CASE_TEMPLATE("SamplesStayInsideTheHullOfTheTexels", R, float, double, Roun
     RandomNumbers random(8);
     SamplerKernel<R> kernel;
     R beforeOne(0.5);
-    for (R step(0.25); beforeOne + step < R(1.0); step = step * R(0.5)) beforeOne = beforeOne + step;
+    for (int k = 2; k <= 53; k++) {
+        const R next = beforeOne + R(std::ldexp(1.0, -k));
+        if (next < R(1.0)) beforeOne = next;
+    }
     for (int i = 0; i < 100000; i++) {
         const R a(random.uniform(-1.0, 1.0));
         const R b(random.uniform(-1.0, 1.0) * std::ldexp(1.0, -random.below(40)));

@@ -166,7 +166,9 @@ Fan randomPerspectiveFan(Random& random) {
     const bool facing =
         random.chance(0.3);  // almost parallel to the screen: leaves the guard band with w > 0
     if (facing) a[2] *= 0x1p-20, b[2] *= 0x1p-20;
-    const double size = std::ldexp(1.0, random.integer(-2, facing || random.chance(0.3) ? 20 : 6));
+    // Edges to rims as far as 2^46 lose seven bits after the point when they are cut from the wrong end.
+    const int farthest = random.chance(0.3) ? 46 : facing || random.chance(0.3) ? 20 : 6;
+    const double size = std::ldexp(1.0, random.integer(-2, farthest));
     const double focal = random.uniform(0.5, 3);
     const int rim = random.integer(5, 16);  // no two neighbours are half a turn apart
     Fan fan;

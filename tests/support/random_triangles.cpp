@@ -139,7 +139,8 @@ std::array<ClipVertex, 3> randomTriangle(Random& random, TriangleFamily family, 
                     if (random.chance(0.35)) *value = randomLimit(random);
             return t;
         case TriangleFamily::onSamples: {
-            const double step = random.chance(0.5) ? 0.5 : 0.0625;
+            // 1/32 and 1/512 are ties of the snapping for 4 and 8 bits.
+            const double step = random.pick({0.5, 0.0625, 1.0 / 32, 1.0 / 512});
             const int reach = static_cast<int>(random.uniform(1, 1.2 * v.width) / step);
             for (auto& c : t)
                 c = vertexAtPixel(v, std::floor(x) + step * random.integer(-reach, reach),
