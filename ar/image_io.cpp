@@ -3,11 +3,16 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cstring>
 #include <fstream>
+#include <functional>
+#include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <system_error>
 
 #include "ar/atomic_file.h"
@@ -27,22 +32,58 @@ constexpr int kRowsPerWrite = 64;
 // The first line of a library's message; some have several.
 std::string firstLine(const std::string& text) { return text.substr(0, text.find('\n')); }
 
-// libpng prints to standard error what it finds damaged, so a truncated PNG is found first: a complete one
-// ends with an IEND chunk, whose twelve bytes are always the same [PNG, 11.2.5].
-bool isTruncatedPng(const std::filesystem::path& path) {
-    static constexpr unsigned char kSignature[8] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+// The checksum of PNG chunks, byte by byte with a table [PNG, Annex D].
+class Crc32 {
+  public:
+    void add(std::span<const char> bytes) {
+        static const std::array<uint32_t, 256> kTable = [] {
+            std::array<uint32_t, 256> table{};
+            for (uint32_t i = 0; i < table.size(); ++i) {
+                uint32_t value = i;
+                for (int bit = 0; bit < 8; ++bit)
+                    value = (value & 1) != 0 ? 0xedb88320u ^ value >> 1 : value >> 1;
+                table[i] = value;
+            }
+            return table;
+        }();
+        for (const char byte : bytes)
+            remainder_ = kTable[(remainder_ ^ static_cast<unsigned char>(byte)) & 255u] ^ remainder_ >> 8;
+    }
+    uint32_t value() const { return ~remainder_; }
+
+  private:
+    uint32_t remainder_ = 0xffffffffu;
+};
+
+uint32_t bigEndian(const char* bytes) {
+    uint32_t value = 0;
+    for (int i = 0; i < 4; ++i) value = value << 8 | static_cast<unsigned char>(bytes[i]);
+    return value;
+}
+
+// libpng prints to standard error what it finds damaged, so a damaged PNG is found first: every chunk up to
+// IEND must be there and have the right checksum [PNG, 5.3]. False for files that do not begin as one.
+bool isDamagedPng(const std::filesystem::path& path) {
+    constexpr std::string_view kSignature = "\x89PNG\r\n\x1a\n";
     std::ifstream file(path, std::ios::binary);
-    unsigned char bytes[8];
-    if (!file.read(reinterpret_cast<char*>(bytes), sizeof bytes)) return false;
-    if (std::memcmp(bytes, kSignature, sizeof bytes) != 0) return false;
-    // Chunks: length, type, data, checksum.
-    while (file.read(reinterpret_cast<char*>(bytes), sizeof bytes)) {
-        const uint32_t length =
-            uint32_t{bytes[0]} << 24 | uint32_t{bytes[1]} << 16 | uint32_t{bytes[2]} << 8 | bytes[3];
-        const bool isEnd = std::memcmp(bytes + 4, "IEND", 4) == 0;
-        file.seekg(length, std::ios::cur);
-        if (!file.read(reinterpret_cast<char*>(bytes), 4)) return true;
-        if (isEnd) return false;
+    std::array<char, 8> head;  // the signature; then length and type of each chunk
+    file.read(head.data(), head.size());
+    const std::string_view start(head.data(), static_cast<size_t>(file.gcount()));
+    if (!start.starts_with(kSignature.substr(0, 4))) return false;
+    if (start != kSignature) return true;
+    std::vector<char> block(size_t{1} << 16);
+    while (file.read(head.data(), head.size())) {
+        const std::string_view type(head.data() + 4, 4);
+        Crc32 crc;
+        crc.add(type);
+        for (size_t left = bigEndian(head.data()); left > 0;) {
+            const size_t count = std::min(left, block.size());
+            if (!file.read(block.data(), static_cast<std::streamsize>(count))) return true;
+            crc.add(std::span(block).first(count));
+            left -= count;
+        }
+        if (!file.read(block.data(), 4) || bigEndian(block.data()) != crc.value()) return true;
+        if (type == "IEND") return false;
     }
     return true;
 }
@@ -73,10 +114,10 @@ std::unique_ptr<OIIO::ImageInput> openInput(const std::filesystem::path& path) {
     const std::filesystem::file_status status = std::filesystem::status(path, error);
     if (!std::filesystem::exists(status)) fail(path, "no such file");
     if (std::filesystem::is_directory(status)) fail(path, "is a directory, not an image file");
+    if (!std::filesystem::is_regular_file(status)) fail(path, "is a device or a pipe, not an image file");
     if (!std::ifstream(path, std::ios::binary)) fail(path, "cannot be opened for reading");
-    if (std::filesystem::is_regular_file(status) && std::filesystem::file_size(path, error) == 0)
-        fail(path, "the file is empty");
-    if (isTruncatedPng(path)) fail(path, "the file is truncated");
+    if (std::filesystem::file_size(path, error) == 0) fail(path, "the file is empty");
+    if (isDamagedPng(path)) fail(path, "the file is truncated or damaged");
     OIIO::ImageSpec hints;
     hints.attribute("oiio:UnassociatedAlpha", 1);
     auto input = OIIO::ImageInput::open(path.string(), &hints);

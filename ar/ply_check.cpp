@@ -127,6 +127,15 @@ std::string cutOff(const Element& element, uint64_t index) {
                        element.name, index + 1);
 }
 
+// The mesh library ends the program for some faces of fewer corners.
+constexpr uint64_t kFewestCorners = 3;
+bool isTooShortFace(const Element& element, const Property& property, uint64_t length) {
+    return element.name == "face" && property.name.starts_with("vertex_ind") && length < kFewestCorners;
+}
+std::string tooShortFace(uint64_t index, uint64_t length) {
+    return fmt::format("face {} has {} corners, not at least {}", index, length, kFewestCorners);
+}
+
 // Length of a list in a binary file; signed lengths below zero come out huge and fail the size check.
 uint64_t readCount(std::string_view bytes, Encoding encoding) {
     uint64_t value = 0;
@@ -148,6 +157,7 @@ std::string binaryDefect(std::string_view body, const Header& header) {
                     if (body.size() - position < property.countSize) return cutOff(element, i);
                     count = readCount(body.substr(position, property.countSize), header.encoding);
                     position += property.countSize;
+                    if (isTooShortFace(element, property, count)) return tooShortFace(i, count);
                 }
                 if (count > (body.size() - position) / property.size) return cutOff(element, i);
                 position += count * property.size;
@@ -177,6 +187,7 @@ std::string asciiDefect(std::string_view body, const Header& header) {
                         return fmt::format("'{}' element {} has no list length", element.name, i + 1);
                     word = takeWord(rest);
                     count = *length;
+                    if (isTooShortFace(element, property, count)) return tooShortFace(i, count);
                 }
                 for (uint64_t k = 0; k < count; k++) {
                     if (word.empty()) return cutOff(element, i);

@@ -8,6 +8,10 @@ set_target_properties(etalon_numeric_flags PROPERTIES EXPORT_NAME numeric_flags)
 target_compile_features(etalon_numeric_flags INTERFACE cxx_std_20)
 target_compile_options(etalon_numeric_flags INTERFACE -ffp-contract=off -fno-fast-math -fno-math-errno)
 
+# g++ 12 merges neighbouring scalar conversions with -ftree-slp-vectorize and then drops a rounding to float:
+# two of "to[i] = 1.0 + (float)from[i]" in a row keep the double (test: TheCompilerKeepsTheRoundingOfNeighbours).
+target_compile_options(etalon_numeric_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:-fno-tree-slp-vectorize>)
+
 if(ETALON_ARCH)
   target_compile_options(etalon_numeric_flags INTERFACE -march=${ETALON_ARCH})
 elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")

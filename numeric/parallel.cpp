@@ -1,6 +1,7 @@
 #include "numeric/parallel.h"
 
 #include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
@@ -21,7 +22,11 @@ void parallelFor(size_t count, int threads, const std::function<void(size_t)>& b
         for (size_t i = 0; i < count; i++) body(i);
         return;
     }
-    tbb::task_arena arena(threads == 0 ? hardwareThreads() : threads);
+    // More threads than the hardware has must be allowed explicitly.
+    const int wanted = threads == 0 ? hardwareThreads() : threads;
+    const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism,
+                                      static_cast<size_t>(std::max(wanted, hardwareThreads())));
+    tbb::task_arena arena(wanted);
     arena.execute([&] {
         tbb::parallel_for(tbb::blocked_range<size_t>(0, count, 1), [&](const tbb::blocked_range<size_t>& range) {
             requireDefaultFpEnvironment();

@@ -6,34 +6,43 @@
 namespace etalon {
 namespace {
 
+constexpr double kSmallestDepth = 0x1p-70;
+constexpr double kLargestDepth = 0x1p100;
+
 // The unit of the constant bias: the smallest step of a UNORM format, or of a float near the largest depth.
-double biasUnit(DepthFormat format, double zMax) {
+double biasUnit(DepthFormat format, double largest) {
     constexpr int kFloatFractionBits = 23;
-    constexpr int kFloatMinExponent = -126;
     switch (format) {
         case DepthFormat::d16: return 0x1p-16;
         case DepthFormat::d24: return 0x1p-24;
         case DepthFormat::d32f: break;
     }
-    const int exponent = zMax > 0 ? std::max(std::ilogb(zMax), kFloatMinExponent) : kFloatMinExponent;
-    return std::ldexp(1.0, exponent - kFloatFractionBits);
+    return std::ldexp(1.0, std::ilogb(std::max(largest, kSmallestDepth)) - kFloatFractionBits);
 }
 
 }  // namespace
 
-double depthBias(const DepthBias& bias, DepthFormat format, const TriangleRecord& record, int subpixelBits) {
-    if (bias.constant == 0 && bias.slopeScale == 0) return 0;
-    double zMax = 0, slopeX = 0, slopeY = 0;
+std::array<double, 3> vertexDepths(const TriangleRecord& record, RasterReal real) {
+    std::array<double, 3> z;
     for (size_t i = 0; i < 3; i++) {
-        const size_t a = (i + 1) % 3, b = (i + 2) % 3;
-        zMax = std::max(zMax, std::fabs(record.z[i]));
-        slopeX = slopeX - record.z[i] * static_cast<double>(record.y_subpx[b] - record.y_subpx[a]);
-        slopeY = slopeY + record.z[i] * static_cast<double>(record.x_subpx[b] - record.x_subpx[a]);
+        z[i] = std::clamp(record.z[i], -kLargestDepth, kLargestDepth);
+        if (real == RasterReal::fp32) z[i] = static_cast<float>(z[i]);
+        if (std::fabs(z[i]) < kSmallestDepth) z[i] = 0;
     }
-    const double subpixelsPerPixel = static_cast<double>(1 << subpixelBits);
-    const double perPixel = subpixelsPerPixel / static_cast<double>(record.area);
-    const double slope = std::max(std::fabs(slopeX), std::fabs(slopeY)) * perPixel;
-    double value = bias.constant * biasUnit(format, zMax) + bias.slopeScale * slope;
+    return z;
+}
+
+double depthBias(const DepthBias& bias, DepthFormat format, const TriangleRecord& record,
+                 const std::array<double, 3>& z, int subpixelBits) {
+    if (bias.constant == 0 && bias.slopeScale == 0) return 0;
+    const auto x = [&](size_t i) { return static_cast<double>(int64_t{record.x_subpx[i]} - record.x_subpx[0]); };
+    const auto y = [&](size_t i) { return static_cast<double>(int64_t{record.y_subpx[i]} - record.y_subpx[0]); };
+    const double perPixel = static_cast<double>(1 << subpixelBits) / static_cast<double>(record.area);
+    const double slopeX = ((z[1] - z[0]) * y(2) - (z[2] - z[0]) * y(1)) * perPixel;
+    const double slopeY = ((z[2] - z[0]) * x(1) - (z[1] - z[0]) * x(2)) * perPixel;
+    const double slope = std::max(std::fabs(slopeX), std::fabs(slopeY));
+    const double largest = std::max({std::fabs(z[0]), std::fabs(z[1]), std::fabs(z[2])});
+    double value = bias.constant * biasUnit(format, largest) + bias.slopeScale * slope;
     if (bias.clamp > 0) value = std::min(value, bias.clamp);
     if (bias.clamp < 0) value = std::max(value, bias.clamp);
     return value;

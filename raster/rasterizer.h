@@ -23,7 +23,7 @@ struct RasterOptions {
 struct RasterStatistics {
     uint64_t triangles = 0;         // submitted
     uint64_t droppedNonFinite = 0;  // rule 1
-    uint64_t rejected = 0;          // outside one plane of rule 2
+    uint64_t rejected = 0;          // outside one plane of rule 2, or nothing left of it
     uint64_t clipped = 0;           // cut by at least one plane
     uint64_t zeroArea = 0;          // after snapping
     uint64_t culled = 0;            // by facing

@@ -139,13 +139,11 @@ size_t TileRasterizer::rowOffset(const BlockRow& row) const {
 TileRasterizer::Piece TileRasterizer::preparePiece(const RenderTarget& target, uint32_t recordIndex,
                                                    const DrawState& state) const {
     const TriangleRecord& record = target.triangles[recordIndex];
-    constexpr double kSmallestDepth = 0x1p-100;
     Piece piece;
     piece.edges = edgeFunctions(record);
-    for (size_t i = 0; i < 3; i++)
-        piece.z[i] = record.z[i] < kSmallestDepth && record.z[i] > -kSmallestDepth ? 0.0 : record.z[i];
+    piece.z = vertexDepths(record, format_.real);
     piece.reciprocalArea = 1.0 / static_cast<double>(record.area);
-    piece.bias = depthBias(state.bias, format_.depth, record, format_.subpixelBits);
+    piece.bias = depthBias(state.bias, format_.depth, record, piece.z, format_.subpixelBits);
     const auto [xMin, xMax] = std::minmax({record.x_subpx[0], record.x_subpx[1], record.x_subpx[2]});
     const auto [yMin, yMax] = std::minmax({record.y_subpx[0], record.y_subpx[1], record.y_subpx[2]});
     piece.x0 = std::max(xMin >> format_.subpixelBits, rectangle_.x0);

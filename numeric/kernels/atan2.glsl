@@ -1,8 +1,9 @@
 // needs: numeric/kernels/wide.glsl
-// The angle of the vector (x, y), over `wide`. Contract, domains and error bound: atan2Of in numeric/elementary.h.
+// The angle of the vector (x, y), over `wide`. Contract, domains and error bound: atan2Of in
+// numeric/elementary.h.
 
-// atan2(y, x) for a result format whose smallest normal number is 2^lowest: smaller arguments and results are 0.
-// `extended` is false where the result is rounded to float: relative error then below 2^-50.
+// atan2(y, x) for a result format whose smallest normal number is 2^lowest: smaller arguments and results are
+// 0. `extended` is false where the result is rounded to float: relative error then below 2^-48.
 // The smaller magnitude over the larger is t in [0, 1]. With c the one of 0, 1/2 and 1 that is near t,
 //   atan(t) = atan(c) + atan(q),  q = (t - c) / (1 + c t),  |q| <= 1/4,
 // and the octant says whether the angle is atan(t), pi/2 -+ atan(t) or pi - atan(t). The quotient and the
@@ -48,7 +49,8 @@ wide atan2Wide(wide y, wide x, wide lowest, bool extended) {
         qLow = (((n - qd) - productError(q, d, qd)) - q * dLow) * reciprocal;
     }
 
-    // atan(q) = q + q s: the Taylor series to q^27 or q^21, whose first term left out is below 2^-60 or 2^-48 of q.
+    // atan(q) = q + q s: the Taylor series to q^27 or q^21, whose first term left out is below 2^-60 or 2^-48
+    // of q.
     wide q2 = q * q;
     wide s = one / wide(21.0);
     if (extended) {

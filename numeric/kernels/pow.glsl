@@ -17,8 +17,8 @@ ScaledNumber splitNumber(wide x) {
     return r;
 }
 
-// The number itself. Below 2^lowest it is 0, before it could become subnormal; beyond the range it is infinity.
-// 2^1024 is beyond the range, but a number just below it is not: half of it is scaled by 2^1023.
+// The number itself. Below 2^lowest it is 0, before it could become subnormal; beyond the range it is
+// infinity. 2^1024 is beyond the range, but a number just below it is not: half of it is scaled by 2^1023.
 wide joinNumber(ScaledNumber a, wide lowest) {
     boolean tooLow = a.exponent < lowest || (a.exponent == lowest && a.significand < wide(1.0));
     boolean tooHigh = a.exponent > wide(1024.0);
@@ -28,9 +28,9 @@ wide joinNumber(ScaledNumber a, wide lowest) {
     return select(tooHigh, wideFromBits(0x7FF00000u, 0x00000000u), select(tooLow, wide(0.0), r));
 }
 
-// x^y for a positive, finite, normal x and |y| <= 2^70; exponents beyond +-1100 are cut off there.
-// 2^(y log2 x) in plain doubles, for results that are rounded to float: with |y log2 x| <= 150 the relative error
-// is below 2^-43.
+// x^y for a positive, finite, normal x and |y| <= 2^70; y log2(x) is cut off at +-1100.
+// 2^(y log2 x) in plain doubles, for results that are rounded to float: with |y log2 x| <= 150 the relative
+// error is below 2^-43.
 //   log2 x = e + log2 c + 2/ln(2) atanh(s),  s = (m - c) / (m + c),
 // with c the one of 3/4, 1 and 5/4 that is near m, so that |s| <= 0.073.
 ScaledNumber scaledPower(wide x, wide y) {
@@ -64,8 +64,8 @@ ScaledNumber scaledPower(wide x, wide y) {
     return r;
 }
 
-// The same with log2 x and the product carried as sums of two numbers: relative error below 2^-53.4 before the last
-// rounding. The scheme, splitting the leading terms so that their products are exact, is that of
+// The same with log2 x and the product carried as sums of two numbers: relative error about 2^-55 before
+// the last rounding. The scheme, splitting the leading terms so that their products are exact, is that of
 // [FDLIBM, e_pow.c]; the intervals and series are our own.
 ScaledNumber scaledPowerExtended(wide x, wide y) {
     wide one = wide(1.0);
@@ -77,7 +77,8 @@ ScaledNumber scaledPowerExtended(wide x, wide y) {
     boolean nearHigh = m > wide(1.1171875);  // between 1 and 5/4
     wide c = select(nearLow, wide(0.75), select(nearHigh, wide(1.25), one));
 
-    // s + sLow = (m - c) / (m + c), with a leading part of 26 bits; the numerator is exact, the denominator d + dLow.
+    // s + sLow = (m - c) / (m + c), with a leading part of 26 bits; the numerator is exact, the denominator d
+    // + dLow.
     wide n = m - c;
     wide d = m + c;
     wide dLow = m - (d - c);
@@ -87,8 +88,8 @@ ScaledNumber scaledPowerExtended(wide x, wide y) {
     wide sHigh = highPart(s);
     wide sLow = (s - sHigh) + (((n - sd) - productError(s, d, sd)) - s * dLow) * reciprocal;
 
-    // ln(m / c) = 2 atanh(s) = 2/3 s (3 + s^2 + r), r = 3/5 s^4 + 3/7 s^6 + ...: |s| <= 0.073, and the first term
-    // left out is below 2^-70 of the whole. a + aLow = s (3 + s^2 + r).
+    // ln(m / c) = 2 atanh(s) = 2/3 s (3 + s^2 + r), r = 3/5 s^4 + 3/7 s^6 + ...: |s| <= 0.073, and the first
+    // term left out is below 2^-70 of the whole. a + aLow = s (3 + s^2 + r).
     wide s2 = s * s;
     wide r = wide(3.0) / wide(17.0);
     r = wide(3.0) / wide(15.0) + s2 * r;

@@ -2,14 +2,15 @@
 // (numeric/elementary.h). Constants that are not whole numbers or quotients of floats are written as the two
 // halves of their bits, because a GPU's compiler would read a decimal as a float.
 
-// The 26 leading bits of a, rounded to nearest; a minus it is exact and has 26 bits too, so that products of two
-// such parts are exact. |a| < 2^996. [Dekker1971, Eq. 5.7]
+// The 26 leading bits of a, rounded to nearest; a minus it is exact and has 26 bits too, so that products of
+// two such parts are exact. |a| < 2^996. [Dekker1971, Eq. 5.7]
 wide highPart(wide a) {
     wide scaled = (wide(134217728.0) + wide(1.0)) * a;  // 2^27 + 1
     return scaled - (scaled - a);
 }
 
-// a b - product, exactly, where product is a b rounded and no partial product underflows. [Dekker1971, Eq. 5.14]
+// a b - product, exactly, where product is a b rounded and no partial product underflows. [Dekker1971, Eq.
+// 5.14]
 wide productError(wide a, wide b, wide product) {
     wide aHigh = highPart(a);
     wide bHigh = highPart(b);
@@ -18,7 +19,8 @@ wide productError(wide a, wide b, wide product) {
     return ((aHigh * bHigh - product) + (aHigh * bLow + aLow * bHigh)) + aLow * bLow;
 }
 
-// The sum of z^k / (k + 1)! from k = 0 to 10; z times it is e^z - 1 but for the first term left out, z^12 / 12!.
+// The sum of z^k / (k + 1)! from k = 0 to 10; z times it is e^z - 1 but for the first term left out, z^12 /
+// 12!.
 wide exponentialSeries11(wide z) {
     wide p = wide(1.0) / wide(39916800.0);  // 1 / 11!
     p = wide(1.0) / wide(3628800.0) + z * p;  // 1 / 10!
@@ -33,8 +35,8 @@ wide exponentialSeries11(wide z) {
     return wide(1.0) + z * p;
 }
 
-// e^(z + zLow) for |z| <= ln(2) / 2 + 2^-20 and |zLow| <= 2^-53 |z|: the Taylor series, whose first term left out
-// is below 2^-61 of the result.
+// e^(z + zLow) for |z| <= ln(2) / 2 + 2^-20 and |zLow| <= 2^-53 |z|: the Taylor series, whose first term left
+// out is below 2^-61 of the result.
 wide exponentialOfSum(wide z, wide zLow) {
     wide p = wide(1.0) / (wide(14.0) * wide(6227020800.0));  // 1 / 14!
     p = wide(1.0) / wide(6227020800.0) + z * p;  // 1 / 13!

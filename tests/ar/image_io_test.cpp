@@ -137,14 +137,21 @@ TEST_CASE("PngCodesBecomeFractions") {
         CHECK(back.values()[i] == static_cast<float>(image.values()[i]) / 255.0f);
 }
 
-TEST_CASE("TruncatedPngIsRefusedAtEveryLength") {
+TEST_CASE("TruncatedPngIsRefusedAtEveryLengthAndDamageAtEveryByte") {
     const ScratchFolder folder;
     const auto encoded = encodePng(Image<uint8_t>(40, 40, 3));
     const std::string bytes(reinterpret_cast<const char*>(encoded.data()), encoded.size());
     for (size_t length = 0; length < bytes.size(); ++length) {
-        writeBytes(folder / "cut.png", bytes.substr(0, length));
-        inputErrorOf([&] { readFrame(folder / "cut.png"); });
+        CAPTURE(length);
+        writeBytes(folder / "a.png", bytes.substr(0, length));
+        inputErrorOf([&] { readFrame(folder / "a.png"); });
+        std::string damaged = bytes;
+        damaged[length] = static_cast<char>(damaged[length] ^ 0x10);
+        writeBytes(folder / "a.png", damaged);
+        inputErrorOf([&] { readFrame(folder / "a.png"); });
     }
+    writeBytes(folder / "a.png", bytes);
+    CHECK_NOTHROW(readFrame(folder / "a.png"));
 }
 
 TEST_CASE("RadianceFilesAreReadAndTruncationIsFound") {
@@ -187,6 +194,7 @@ TEST_CASE("FilesThatAreNoImagesAreRefused") {
     writeBytes(folder / "text.txt", "not an image");
     CHECK(contains(inputErrorOf([&] { readFrame(folder / "missing.exr"); }), "no such file"));
     CHECK(contains(inputErrorOf([&] { readFrame(folder.path()); }), "directory"));
+    CHECK(contains(inputErrorOf([&] { readFrame("/dev/zero"); }), "device"));
     CHECK(contains(inputErrorOf([&] { readFrame(folder / "empty.exr"); }), "empty"));
     CHECK(contains(inputErrorOf([&] { readFrame(folder / "text.exr"); }), "not a readable image"));
     CHECK(contains(inputErrorOf([&] { readFrame(folder / "text.txt"); }), "not a readable image"));

@@ -141,8 +141,9 @@ TEST_CASE("EachFormatLoadsTheSameCube") {
                                                                  {"binary.PLY", cubePlyBinary()},
                                                                  {"cube.gltf", cubeGltf()}};
     const LoadedMesh first = folder.load(files[0].first, files[0].second);
-    for (const auto& [name, bytes] : files) {
-        CAPTURE(name);
+    for (const auto& file : files) {
+        const auto& [name, bytes] = file;
+        CAPTURE(file.first);
         const LoadedMesh loaded = folder.load(name, bytes);
         CHECK(corners(loaded.mesh, loaded.mesh.positions) == cubeCorners());
         // Smooth normals are sums over equal positions, whether or not the file shares its vertices.
@@ -249,6 +250,7 @@ TEST_CASE("BadMeshFilesAreInputErrors") {
         {"vertices.ply", binary.substr(0, plyHeader("binary_little_endian").size() + 20),
          "8 'vertex' elements"},
         {"half_ascii.ply", ascii.substr(0, ascii.size() - 16), "is cut off"},
+        {"corners.ply", replaced(ascii, "3 0 2 1", "0"), "face 0 has 0 corners"},
         {"lie.ply", replaced(binary, "vertex 8", "vertex 4000000000"), "is cut off"},
         {"range.ply", replaced(ascii, "3 0 2 1", "3 0 2 8"), "out of range: there are 8 vertices"},
         {"negative.ply", replaced(ascii, "3 0 2 1", "3 0 2 -1"), "index -1 of face 0 is out of range"},

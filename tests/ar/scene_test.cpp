@@ -360,12 +360,14 @@ TEST_CASE("MatricesMustBeAffineAndNotSingular") {
         return text;
     };
     CHECK(errorOf(folder, withTransform("[[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]")) == "no error");
-    for (const auto& [rows, words] : std::vector<std::pair<std::string, std::string>>{
-             {"[[1,2,3,0],[2,4,6,0],[0,0,1,0],[0,0,0,1]]", "singular"},
-             {"[[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,1,1]]", "last row"},
-             {"[[1,0,0,0],[0,1,0,0],[0,0,1,0]]", "4 rows of 4"},
-             {"[[1,0,0,0],[0,1,0,0],[0,0,1],[0,0,0,1]]", "4 rows of 4"},
-             {"[[1,0,0,0],[0,nan,0,0],[0,0,1,0],[0,0,0,1]]", "nan"}}) {
+    const std::vector<std::pair<std::string, std::string>> table{
+        {"[[1,2,3,0],[2,4,6,0],[0,0,1,0],[0,0,0,1]]", "singular"},
+        {"[[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,1,1]]", "last row"},
+        {"[[1,0,0,0],[0,1,0,0],[0,0,1,0]]", "4 rows of 4"},
+        {"[[1,0,0,0],[0,1,0,0],[0,0,1],[0,0,0,1]]", "4 rows of 4"},
+        {"[[1,0,0,0],[0,nan,0,0],[0,0,1,0],[0,0,0,1]]", "nan"}};
+    for (const auto& bad : table) {
+        const std::string &rows = bad.first, &words = bad.second;
         const std::string message = errorOf(folder, withTransform(rows));
         CAPTURE(rows);
         CAPTURE(message);

@@ -16,8 +16,8 @@ template <class Real>
 std::array<Real, 3> vertexDepths(const Piece& piece) {
     std::array<Real, 3> z;
     for (size_t i = 0; i < 3; i++) {
-        z[i] = static_cast<Real>(piece.z[i] / piece.w[i]);
-        if (std::abs(z[i]) < Real(0x1p-100)) z[i] = 0;
+        z[i] = static_cast<Real>(std::clamp(piece.z[i] / piece.w[i], -0x1p100, 0x1p100));
+        if (std::abs(z[i]) < Real(0x1p-70)) z[i] = 0;
     }
     return z;
 }
@@ -27,10 +27,10 @@ template <class Real>
 Real constantBias(const DepthBias& bias, DepthFormat format, const Piece& piece) {
     double u = format == DepthFormat::d16 ? 0x1p-16 : 0x1p-24;
     if (format == DepthFormat::d32f) {
-        double largest = 0;
+        double largest = 0x1p-70;
         for (Real z : vertexDepths<Real>(piece))
             largest = std::max(largest, std::abs(static_cast<double>(z)));
-        u = std::ldexp(1.0, (largest > 0 ? std::ilogb(largest) : 0) - 23);
+        u = std::ldexp(1.0, std::ilogb(largest) - 23);
     }
     double value = bias.constant * u;
     if (bias.clamp > 0) value = std::min(value, bias.clamp);
