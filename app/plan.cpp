@@ -26,7 +26,8 @@ ExitCode runPlan(const PlanVerb& verb) {
 
 void addPlan(CLI::App& app, ExitCode& exitCode) {
     auto verb = std::make_shared<PlanVerb>();
-    CLI::App* command = app.add_subcommand("plan", "Say which passes a scene needs, and why the others do not run");
+    CLI::App* command =
+        app.add_subcommand("plan", "Say which passes a scene needs, and why the others do not run");
     verb->scene.addTo(*command);
     CLI::Option* json = command->add_flag("--json", verb->json, "As JSON");
     command->add_flag("--dot", verb->dot, "As a Graphviz graph")->excludes(json);

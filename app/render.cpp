@@ -59,9 +59,10 @@ ExitCode runRender(const RenderVerb& verb) {
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     progress.show("writing");
     for (size_t i = 0; i < files.size(); i++) {
-        files[i]->write(isPng(verb.files[i])
-                            ? encodePng(toneMap(result.beauty, toneMapOf(scene.output.toneMap), scene.output.exposure))
-                            : encodeExr(result.frame));
+        files[i]->write(
+            isPng(verb.files[i])
+                ? encodePng(toneMap(result.beauty, toneMapOf(scene.output.toneMap), scene.output.exposure))
+                : encodeExr(result.frame));
     }
     for (const auto& file : files) file->commit();
     progress.finish();
@@ -85,7 +86,8 @@ ExitCode runRender(const RenderVerb& verb) {
     } else {
         std::string text;
         for (const std::string& file : verb.files)
-            text += fmt::format("{}: {}x{} in {:.2f} s\n", file, result.frame.width, result.frame.height, seconds);
+            text += fmt::format("{}: {}x{} in {:.2f} s\n", file, result.frame.width, result.frame.height,
+                                seconds);
         printOut(text);
     }
     return ExitCode::Done;
@@ -97,7 +99,9 @@ void addRender(CLI::App& app, ExitCode& exitCode) {
     auto verb = std::make_shared<RenderVerb>();
     CLI::App* command = app.add_subcommand("render", "Render a scene file to images");
     verb->scene.addTo(*command);
-    command->add_option("-o,--output", verb->files, "Image to write: .exr (all outputs) or .png (tone mapped beauty)")
+    command
+        ->add_option("-o,--output", verb->files,
+                     "Image to write: .exr (all outputs) or .png (tone mapped beauty)")
         ->required()
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);

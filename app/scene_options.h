@@ -22,14 +22,19 @@ struct SceneOptions {
             return CLI::IsMember(std::vector<std::string>(list.begin(), list.end()));
         };
         verb.add_option("scene", scene, "Scene file (TOML)")->required();
-        verb.add_option("--profile", profile, "Arithmetic profile; default: the scene's")->check(names(kProfileNames));
-        verb.add_option("--outputs", outputs, "Outputs instead of the scene's")->delimiter(',')->check(names(kOutputNames));
+        verb.add_option("--profile", profile, "Arithmetic profile; default: the scene's")
+            ->check(names(kProfileNames));
+        verb.add_option("--outputs", outputs, "Outputs instead of the scene's")
+            ->delimiter(',')
+            ->check(names(kOutputNames));
         verb.add_flag("--strict", strict, "Questionable input (negative or NaN radiance) is an error");
-        verb.add_option("--threads", raster.threads, "Threads; 0: all. Changes no bit")->check(CLI::Range(0, 1024));
+        verb.add_option("--threads", raster.threads, "Threads; 0: all. Changes no bit")
+            ->check(CLI::Range(0, 1024));
         verb.add_option("--tile", raster.tileSize, "Tile size in pixels, a multiple of 8. Changes no bit")
             ->check(CLI::Range(8, 256))
             ->check([](const std::string& text) {
-                return std::stoi(text) % 8 == 0 ? std::string() : "tile size " + text + " is not a multiple of 8";
+                return std::stoi(text) % 8 == 0 ? std::string()
+                                                : "tile size " + text + " is not a multiple of 8";
             });
     }
 

@@ -54,8 +54,10 @@ class Planner {
 
     void planVisibility() {
         std::vector<std::string> needs;
-        if (objects_.empty()) add("geometry", false, "the scene has no meshes and no planes");
-        else add("geometry", true, fmt::format("{} objects to place", objects_.size()));
+        if (objects_.empty())
+            add("geometry", false, "the scene has no meshes and no planes");
+        else
+            add("geometry", true, fmt::format("{} objects to place", objects_.size()));
         if (!objects_.empty()) needs.push_back("geometry");
         add("visibility", true, "every output is of what is visible", needs);
         plan_.depth = asked("depth");
@@ -86,7 +88,8 @@ class Planner {
             case ShadeOutput::specular:
                 if (scene_.lights.empty()) return "no lights in the scene";
                 return missing(isGlossy, "blinn_phong surface");
-            case ShadeOutput::mirror: return missing(isMirror, "mirror");
+            case ShadeOutput::mirror:
+                return missing(isMirror, "mirror");
             default:
                 if (scene_.environment.kind == EnvironmentKind::none) return "no environment in the scene";
                 if (facts_ && !facts_->backgroundVisible) return "objects cover every pixel";
@@ -98,9 +101,12 @@ class Planner {
         const std::string name(kComponentNames[static_cast<size_t>(component)]);
         const bool output = asked(name), beauty = asked("beauty") || plan_.toneMap;
         const std::string nothing = whyNothing(component);
-        if (!output && !beauty) add(name, false, "no output shows it", {"visibility"});
-        else if (!nothing.empty()) add(name, false, nothing, {"visibility"});
-        else add(name, true, output ? "output asked for" : "part of the beauty", {"visibility"});
+        if (!output && !beauty)
+            add(name, false, "no output shows it", {"visibility"});
+        else if (!nothing.empty())
+            add(name, false, nothing, {"visibility"});
+        else
+            add(name, true, output ? "output asked for" : "part of the beauty", {"visibility"});
         plan_.request[component] = output;
     }
     bool runs(std::string_view name) const { return plan_.find(name)->runs; }
@@ -123,7 +129,8 @@ class Planner {
                 continue;
             }
             plan_.objectCube[i] = visible(i);
-            add(name, visible(i), visible(i) ? "a visible mirror reflects the scene" : "its mirror is not visible",
+            add(name, visible(i),
+                visible(i) ? "a visible mirror reflects the scene" : "its mirror is not visible",
                 {"geometry"});
             if (visible(i)) addNeed("mirror", name);
         }
@@ -136,7 +143,8 @@ class Planner {
     bool mirrorSeesEnvironment() const {
         if (!runs("mirror")) return false;
         for (size_t i = 0; i < objects_.size(); i++)
-            if (objects_[i].material->kind == MaterialKind::mirror && !plan_.objectCube[i] && (visible(i) || anyCube()))
+            if (objects_[i].material->kind == MaterialKind::mirror && !plan_.objectCube[i] &&
+                (visible(i) || anyCube()))
                 return true;
         return false;
     }
@@ -180,11 +188,12 @@ class Planner {
         for (const std::string_view component : kComponentNames)
             if (beauty && runs(component)) needs.emplace_back(component);
         add("beauty", beauty,
-            asked("beauty")  ? "output asked for"
+            asked("beauty") ? "output asked for"
             : plan_.toneMap ? "the PNG shows it"
-                             : "not an output",
+                            : "not an output",
             needs);
-        add("tone mapping", plan_.toneMap, plan_.toneMap ? "a PNG is written" : "no PNG is written", {"beauty"});
+        add("tone mapping", plan_.toneMap, plan_.toneMap ? "a PNG is written" : "no PNG is written",
+            {"beauty"});
     }
 
     // Bytes of the largest buffers that live at one time.
@@ -195,7 +204,8 @@ class Planner {
             static_cast<uint64_t>(scene_.camera.width) * static_cast<uint64_t>(scene_.camera.height);
         uint64_t floats = 0;
         for (int o = 0; o < kShadeOutputs; o++)
-            if (plan_.request.wanted[o]) floats += static_cast<ShadeOutput>(o) == ShadeOutput::distance ? 1 : 3;
+            if (plan_.request.wanted[o])
+                floats += static_cast<ShadeOutput>(o) == ShadeOutput::distance ? 1 : 3;
         floats += (plan_.depth ? 1u : 0u) + (plan_.ids ? 2u : 0u) + (plan_.coverage ? 1u : 0u);
         // The images, and once more as the channels that are written.
         uint64_t bytes = pixels * (static_cast<uint64_t>(scene_.render.samples) * kBytesPerSample +

@@ -22,7 +22,8 @@ std::string planText(const Plan& plan) {
 std::string planJson(const Plan& plan) {
     nlohmann::ordered_json passes = nlohmann::ordered_json::array();
     for (const PlanPass& pass : plan.passes)
-        passes.push_back({{"name", pass.name}, {"runs", pass.runs}, {"reason", pass.reason}, {"needs", pass.needs}});
+        passes.push_back(
+            {{"name", pass.name}, {"runs", pass.runs}, {"reason", pass.reason}, {"needs", pass.needs}});
     const nlohmann::ordered_json json = {{"passes", passes}, {"memory_bytes", plan.memory_bytes}};
     return json.dump(2) + "\n";
 }

@@ -33,7 +33,8 @@ class SceneRenderer {
         surfaces_ = buildSurfaces(scene_, result_.warnings);
         placed_ = placeMeshes(surfaces_, profile_.vertex, options_.raster.threads);
         progress("visibility");
-        visible_.emplace(findVisible(surfaces_, placed_, view_, profile_, scene_.render.samples, options_.raster));
+        visible_.emplace(
+            findVisible(surfaces_, placed_, view_, profile_, scene_.render.samples, options_.raster));
         result_.raster = visible_->statistics;
         const VisibilityFacts facts = visibilityFacts();
         result_.plan = makePlan(scene_, options_.request, &facts);
@@ -61,10 +62,10 @@ class SceneRenderer {
     void requireMemory() const {
         const uint64_t needed = result_.plan.memory_bytes, present = machineMemory_bytes();
         if (needed <= present) return;
-        throw InputError(fmt::format("{}: {}x{} pixels with {} samples need {:.1f} GiB, this machine has {:.1f} GiB",
-                                     where(scene_, scene_.camera.line), scene_.camera.width, scene_.camera.height,
-                                     scene_.render.samples, static_cast<double>(needed) / kGiB,
-                                     static_cast<double>(present) / kGiB));
+        throw InputError(fmt::format(
+            "{}: {}x{} pixels with {} samples need {:.1f} GiB, this machine has {:.1f} GiB",
+            where(scene_, scene_.camera.line), scene_.camera.width, scene_.camera.height,
+            scene_.render.samples, static_cast<double>(needed) / kGiB, static_cast<double>(present) / kGiB));
     }
 
     VisibilityFacts visibilityFacts() const {
@@ -72,8 +73,10 @@ class SceneRenderer {
         facts.objectVisible.assign(surfaces_.instances.size(), false);
         facts.backgroundVisible = false;
         for (const uint32_t id : visible_->target.id.values()) {
-            if (id == kNoTriangle) facts.backgroundVisible = true;
-            else facts.objectVisible[visible_->instanceOfDraw[visible_->target.triangles[id].draw]] = true;
+            if (id == kNoTriangle)
+                facts.backgroundVisible = true;
+            else
+                facts.objectVisible[visible_->instanceOfDraw[visible_->target.triangles[id].draw]] = true;
         }
         return facts;
     }
@@ -166,7 +169,8 @@ class SceneRenderer {
         Image<float> depth(view_.width, view_.height);
         const RenderTarget& target = visible_->target;
         for (size_t i = 0; i < depth.pixelCount(); i++)
-            depth.values()[i] = static_cast<float>(depthFromStored(target.format.depth, target.depth.plane(0)[i]));
+            depth.values()[i] =
+                static_cast<float>(depthFromStored(target.format.depth, target.depth.plane(0)[i]));
         result_.frame.channels.push_back({"Z", std::move(depth)});
     }
     // Sample 0: the object (1 for the first; 0: nothing) and its triangle (from 0).
@@ -213,6 +217,8 @@ RenderResult renderScene(const Scene& scene, const RenderOptions& options) {
     return SceneRenderer(scene, options).render();
 }
 
-Plan planScene(const Scene& scene, const RenderOptions& options) { return SceneRenderer(scene, options).plan(); }
+Plan planScene(const Scene& scene, const RenderOptions& options) {
+    return SceneRenderer(scene, options).plan();
+}
 
 }  // namespace etalon

@@ -29,8 +29,8 @@ struct RenderResult {
     ShadeStatistics shading;
 };
 
-// Renders the scene. Throws InputError "file:line: reason" for files that cannot be used and for images that need
-// more memory than the machine has.
+// Renders the scene. Throws InputError "file:line: reason" for files that cannot be used and for images that
+// need more memory than the machine has.
 RenderResult renderScene(const Scene& scene, const RenderOptions& options);
 
 // The plan as renderScene would run it: loads the geometry and finds what is visible.

@@ -94,7 +94,7 @@ struct MeshObject {
     std::filesystem::path file;  // resolved against the scene file's folder
     size_t material = 0;         // index into Scene::materials
     std::vector<glm::dmat4> objectToWorld;
-    bool twoSided = true;  // false: triangles seen from behind are not drawn
+    bool twoSided = true;                             // false: triangles seen from behind are not drawn
     Reflection reflection = Reflection::environment;  // for a mirror
     int cubeSize = 256;                               // texels, for Reflection::scene
 };

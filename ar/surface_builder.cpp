@@ -15,9 +15,15 @@ namespace {
 SurfaceMaterial toSurface(const Material& material) {
     SurfaceMaterial surface;
     switch (material.kind) {
-        case MaterialKind::lambert: surface.kind = SurfaceKind::lambert; break;
-        case MaterialKind::blinnPhong: surface.kind = SurfaceKind::blinnPhong; break;
-        case MaterialKind::mirror: surface.kind = SurfaceKind::mirror; break;
+        case MaterialKind::lambert:
+            surface.kind = SurfaceKind::lambert;
+            break;
+        case MaterialKind::blinnPhong:
+            surface.kind = SurfaceKind::blinnPhong;
+            break;
+        case MaterialKind::mirror:
+            surface.kind = SurfaceKind::mirror;
+            break;
     }
     surface.diffuse = material.diffuse;
     surface.specular = material.specular;
@@ -53,10 +59,12 @@ glm::dvec3 centreOfBounds(const SurfaceMesh& mesh, const glm::dmat4& toWorld) {
     return {(lowest.x + highest.x) / 2, (lowest.y + highest.y) / 2, (lowest.z + highest.z) / 2};
 }
 
-// Two triangles; the corners are point +- u size.x / 2 +- v size.y / 2, surface coordinates in metres from point.
+// Two triangles; the corners are point +- u size.x / 2 +- v size.y / 2, surface coordinates in metres from
+// point.
 SurfaceMesh planeMesh(const Plane& plane) {
     SurfaceMesh mesh;
-    for (const auto& [a, b] : {std::pair(-0.5, -0.5), std::pair(0.5, -0.5), std::pair(0.5, 0.5), std::pair(-0.5, 0.5)}) {
+    for (const auto& [a, b] :
+         {std::pair(-0.5, -0.5), std::pair(0.5, -0.5), std::pair(0.5, 0.5), std::pair(-0.5, 0.5)}) {
         const double u_m = a * plane.size_m.x, v_m = b * plane.size_m.y;
         mesh.positions.emplace_back(plane.point.x + (u_m * plane.u.x + v_m * plane.v.x),
                                     plane.point.y + (u_m * plane.u.y + v_m * plane.v.y),
@@ -74,9 +82,11 @@ SurfaceScene buildSurfaces(const Scene& scene, std::vector<std::string>& warning
     SurfaceScene surfaces;
     for (const Material& material : scene.materials) surfaces.materials.push_back(toSurface(material));
     for (const DirectionalLight& light : scene.lights)
-        surfaces.lights.push_back({{-light.direction.x, -light.direction.y, -light.direction.z}, light.irradiance});
+        surfaces.lights.push_back(
+            {{-light.direction.x, -light.direction.y, -light.direction.z}, light.irradiance});
     surfaces.ambient = scene.ambient;
-    if (scene.environment.kind == EnvironmentKind::constant) surfaces.environment.constant = scene.environment.constant;
+    if (scene.environment.kind == EnvironmentKind::constant)
+        surfaces.environment.constant = scene.environment.constant;
     const SinCos rotation = sinCosOfDegrees(scene.environment.rotation_deg);
     surfaces.environment.cosRotation = rotation.cos;
     surfaces.environment.sinRotation = rotation.sin;
@@ -94,11 +104,15 @@ SurfaceScene buildSurfaces(const Scene& scene, std::vector<std::string>& warning
             continue;
         }
         const MeshObject& mesh = scene.meshes[object.index];
-        const auto [entry, isNew] = meshOfFile.try_emplace(mesh.file, static_cast<uint32_t>(surfaces.meshes.size()));
+        const auto [entry, isNew] =
+            meshOfFile.try_emplace(mesh.file, static_cast<uint32_t>(surfaces.meshes.size()));
         if (isNew) {
             LoadedMesh loaded = loadMesh(mesh.file, where(scene, mesh.fileLine));
-            for (std::string& warning : meshWarnings(mesh.file, loaded.report)) warnings.push_back(std::move(warning));
-            surfaces.meshes.push_back({std::move(loaded.mesh.positions), std::move(loaded.mesh.normals), {},
+            for (std::string& warning : meshWarnings(mesh.file, loaded.report))
+                warnings.push_back(std::move(warning));
+            surfaces.meshes.push_back({std::move(loaded.mesh.positions),
+                                       std::move(loaded.mesh.normals),
+                                       {},
                                        std::move(loaded.mesh.indices)});
         }
         instance.mesh = entry->second;
@@ -128,8 +142,8 @@ Image<float> loadEnvironment(const Scene& scene, bool strict, std::vector<std::s
                                          where(scene, scene.environment.line), scene.environment.intensity));
     }
     if (negative + nonFinite == 0) return image;
-    const std::string found = fmt::format("{}: {} negative and {} non-finite values", scene.environment.file.string(),
-                                          negative, nonFinite);
+    const std::string found = fmt::format("{}: {} negative and {} non-finite values",
+                                          scene.environment.file.string(), negative, nonFinite);
     if (strict) throw InputError(found);
     warnings.push_back(found + " were set to 0");
     return image;

@@ -11,7 +11,8 @@
 
 namespace etalon {
 
-// A mesh in world space; one per instance, shared by all views. The doubles hold values of the vertex arithmetic.
+// A mesh in world space; one per instance, shared by all views. The doubles hold values of the vertex
+// arithmetic.
 struct PlacedMesh {
     const SurfaceMesh* mesh = nullptr;
     std::vector<glm::dvec3> positions, normals;  // normals are not normalised
@@ -22,6 +23,7 @@ struct PlacedMesh {
 std::vector<PlacedMesh> placeMeshes(const SurfaceScene& scene, RasterReal vertexReal, int threads);
 
 // The vertices in clip space of a view.
-std::vector<ClipVertex> toClipSpace(const PlacedMesh& placed, const View& view, RasterReal vertexReal, int threads);
+std::vector<ClipVertex> toClipSpace(const PlacedMesh& placed, const View& view, RasterReal vertexReal,
+                                    int threads);
 
 }  // namespace etalon

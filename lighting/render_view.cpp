@@ -3,7 +3,8 @@
 namespace etalon {
 
 VisibleScene findVisible(const SurfaceScene& scene, const std::vector<PlacedMesh>& placed, const View& view,
-                         const Profile& profile, int samples, const RasterOptions& options, uint32_t excluded) {
+                         const Profile& profile, int samples, const RasterOptions& options,
+                         uint32_t excluded) {
     RenderTargetFormat format;
     format.samples = samples;
     format.subpixelBits = profile.subpixelBits;
@@ -25,8 +26,7 @@ VisibleScene findVisible(const SurfaceScene& scene, const std::vector<PlacedMesh
         draws.push_back(draw);
         visible.instanceOfDraw.push_back(i);
     }
-    visible.statistics =
-        rasterize(visible.target, {0, 0, view.width, view.height}, draws, options);
+    visible.statistics = rasterize(visible.target, {0, 0, view.width, view.height}, draws, options);
     return visible;
 }
 
@@ -35,8 +35,8 @@ CubeRender renderCubeMap(const SurfaceScene& scene, const std::vector<PlacedMesh
                          const Profile& profile, const RasterOptions& options) {
     CubeRender cube;
     for (int face = 0; face < kCubeFaces; face++) {
-        const View view =
-            cubeFaceView(static_cast<CubeFace>(face), request.size, request.centre, request.near_m, request.far_m);
+        const View view = cubeFaceView(static_cast<CubeFace>(face), request.size, request.centre,
+                                       request.near_m, request.far_m);
         const VisibleScene visible = findVisible(scene, placed, view, profile, 1, options, request.excluded);
         ShadeJob job;
         job.scene = &scene;

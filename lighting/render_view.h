@@ -24,8 +24,8 @@ VisibleScene findVisible(const SurfaceScene& scene, const std::vector<PlacedMesh
                          const Profile& profile, int samples, const RasterOptions& options,
                          uint32_t excluded = kNoInstance);
 
-// Six faces with what is seen from a point: radiance (three channels) and the distance along the ray in metres
-// (infinity where nothing is).
+// Six faces with what is seen from a point: radiance (three channels) and the distance along the ray in
+// metres (infinity where nothing is).
 struct CubeRender {
     CubeMap<float> radiance, distance;
 };

@@ -15,7 +15,8 @@ int channelsOf(ShadeOutput output) { return output == ShadeOutput::distance ? 1 
 }  // namespace
 
 ShadedImages shade(const ShadeJob& job, ShadeStatistics* statistics) {
-    ETALON_CHECK(job.scene && job.view && job.target && job.placed && job.profile, "a part of the job is missing");
+    ETALON_CHECK(job.scene && job.view && job.target && job.placed && job.profile,
+                 "a part of the job is missing");
     ETALON_CHECK(job.instanceOfDraw.size() == job.target->drawCount &&
                      job.sceneCubes.size() == job.scene->instances.size(),
                  "{} draws of {}, {} cubes of {} instances", job.instanceOfDraw.size(), job.target->drawCount,
@@ -32,7 +33,8 @@ ShadedImages shade(const ShadeJob& job, ShadeStatistics* statistics) {
     std::mutex mutex;
     std::vector<std::unique_ptr<TileShader>> idle;
     ShadeStatistics total;
-    const int columns = (width + job.tileSize - 1) / job.tileSize, rows = (height + job.tileSize - 1) / job.tileSize;
+    const int columns = (width + job.tileSize - 1) / job.tileSize,
+              rows = (height + job.tileSize - 1) / job.tileSize;
     parallelFor(static_cast<size_t>(columns) * static_cast<size_t>(rows), job.threads, [&](size_t t) {
         std::unique_ptr<TileShader> shader;
         {
@@ -43,9 +45,11 @@ ShadedImages shade(const ShadeJob& job, ShadeStatistics* statistics) {
             }
         }
         if (!shader) shader = passes.makeTileShader(job);
-        const int x0 = static_cast<int>(t) % columns * job.tileSize, y0 = static_cast<int>(t) / columns * job.tileSize;
+        const int x0 = static_cast<int>(t) % columns * job.tileSize,
+                  y0 = static_cast<int>(t) / columns * job.tileSize;
         ShadeStatistics counts;
-        shader->run({x0, y0, std::min(x0 + job.tileSize, width), std::min(y0 + job.tileSize, height)}, images, counts);
+        shader->run({x0, y0, std::min(x0 + job.tileSize, width), std::min(y0 + job.tileSize, height)}, images,
+                    counts);
         const std::lock_guard lock(mutex);
         total.surfaceFragments += counts.surfaceFragments;
         total.backgroundFragments += counts.backgroundFragments;

@@ -16,7 +16,16 @@
 namespace etalon {
 
 // The images that shading can make. The radiance components add up to `beauty`, in this order.
-enum class ShadeOutput : uint8_t { ambient, diffuse, specular, mirror, background, beauty, normals, distance };
+enum class ShadeOutput : uint8_t {
+    ambient,
+    diffuse,
+    specular,
+    mirror,
+    background,
+    beauty,
+    normals,
+    distance
+};
 inline constexpr int kShadeOutputs = 8;
 inline constexpr int kRadianceComponents = 5;
 
@@ -31,8 +40,8 @@ struct ShadeRequest {
 };
 
 // The images asked for; the others are empty. Radiance images have three channels, resolved over the samples.
-// normals (three channels, unit length, world space, towards the viewer; 0 where nothing is visible) and distance
-// (metres from the eye along the ray; infinity where nothing is visible) are those of sample 0.
+// normals (three channels, unit length, world space, towards the viewer; 0 where nothing is visible) and
+// distance (metres from the eye along the ray; infinity where nothing is visible) are those of sample 0.
 struct ShadedImages {
     Image<float> images[kShadeOutputs];
 
@@ -41,7 +50,7 @@ struct ShadedImages {
 };
 
 struct ShadeStatistics {
-    uint64_t surfaceFragments = 0;     // shaded once each
+    uint64_t surfaceFragments = 0;  // shaded once each
     uint64_t backgroundFragments = 0;
 };
 
@@ -51,9 +60,10 @@ struct ShadeJob {
     const View* view = nullptr;
     const RenderTarget* target = nullptr;
     const std::vector<PlacedMesh>* placed = nullptr;
-    std::vector<uint32_t> instanceOfDraw;           // for each draw of the target
+    std::vector<uint32_t> instanceOfDraw;             // for each draw of the target
     const CubeMap<float>* environmentCube = nullptr;  // null: mirrors of the environment see its constant
-    std::vector<const CubeMap<float>*> sceneCubes;  // for each instance: its cube map, or null for the environment
+    std::vector<const CubeMap<float>*>
+        sceneCubes;  // for each instance: its cube map, or null for the environment
     ShadeRequest request;
     const Profile* profile = nullptr;
     int threads = 0, tileSize = 64;
@@ -62,8 +72,8 @@ struct ShadeJob {
 // Shades each visible fragment once, in the profile's fragment arithmetic.
 ShadedImages shade(const ShadeJob& job, ShadeStatistics* statistics = nullptr);
 
-// The cube map of a lat-long environment for its mirrors, without its rotation: a quarter of the image's width along
-// a face, so that texels subtend about what they do in the image, one sample each.
+// The cube map of a lat-long environment for its mirrors, without its rotation: a quarter of the image's
+// width along a face, so that texels subtend about what they do in the image, one sample each.
 CubeMap<float> environmentCube(const SurfaceEnvironment& environment, const Profile& profile, int threads);
 
 }  // namespace etalon

@@ -55,7 +55,8 @@ class TileShaderOf final : public TileShader {
     vec3 mirrorRadiance(const Bucket& bucket, vec3 n, vec3 toEye);
     void put(ShadeOutput output, Group group, vec3 value);
     void resolve(const PixelRectangle& rectangle, ShadedImages& images);
-    void copyFirstSample(ShadeOutput output, int channels, const PixelRectangle& rectangle, ShadedImages& images);
+    void copyFirstSample(ShadeOutput output, int channels, const PixelRectangle& rectangle,
+                         ShadedImages& images);
     double& value(ShadeOutput output, uint32_t fragment, int channel);
 
     const ShadeJob& job_;
@@ -82,15 +83,17 @@ TileShaderOf<T>::TileShaderOf(const ShadeJob& job) : job_(job) {
 }
 
 template <class T>
-void TileShaderOf<T>::run(const PixelRectangle& rectangle, ShadedImages& images, ShadeStatistics& statistics) {
+void TileShaderOf<T>::run(const PixelRectangle& rectangle, ShadedImages& images,
+                          ShadeStatistics& statistics) {
     // List what is visible, sort it by what shades it, shade, write the images.
     tile_.collect(*job_.target, rectangle);
     sortIntoBuckets();
     for (size_t o = 0; o < kShadeOutputs; o++)
         if (job_.request.wanted[o]) values_[o].assign(3 * tile_.fragments.size(), 0.0);
     const auto inGroups = [](const std::vector<uint32_t>& list, auto&& body) {
-        forEachLaneGroup<N>(list.size(),
-                            [&](size_t first, int active) { body(Group(&list[first], static_cast<size_t>(active))); });
+        forEachLaneGroup<N>(list.size(), [&](size_t first, int active) {
+            body(Group(&list[first], static_cast<size_t>(active)));
+        });
     };
     inGroups(background_, [&](Group group) { shadeBackground(group); });
     for (const Bucket& bucket : buckets_)
@@ -127,8 +130,10 @@ void TileShaderOf<T>::sortIntoBuckets() {
             continue;
         }
         const uint32_t instance = job_.instanceOfDraw[job_.target->triangles[id].draw];
-        const CubeMap<float>* cube = job_.sceneCubes[instance] ? job_.sceneCubes[instance] : job_.environmentCube;
-        bucketOf(job_.scene->materials[job_.scene->instances[instance].material], cube).fragments.push_back(f);
+        const CubeMap<float>* cube =
+            job_.sceneCubes[instance] ? job_.sceneCubes[instance] : job_.environmentCube;
+        bucketOf(job_.scene->materials[job_.scene->instances[instance].material], cube)
+            .fragments.push_back(f);
     }
 }
 
@@ -168,7 +173,8 @@ typename TileShaderOf<T>::Weights TileShaderOf<T>::weights(Group group) const {
         const WeightScale scale = weightScale(record);
         const auto edges = edgeFunctions(record);
         for (size_t k = 0; k < 3; k++) {
-            e[k][lane] = static_cast<double>(edges[k].at(fragment.x_subpx, fragment.y_subpx)) * scale.areaScale;
+            e[k][lane] =
+                static_cast<double>(edges[k].at(fragment.x_subpx, fragment.y_subpx)) * scale.areaScale;
             q[k][lane] = scale.q[k];
         }
     }
@@ -192,7 +198,8 @@ T TileShaderOf<T>::attribute(const Weights& w, Get get) {
         const TriangleRecord& record = *w.records[i];
         const PlacedMesh& placed = *w.meshes[i];
         const uint32_t* index = &placed.mesh->indices[3 * size_t{record.triangle}];
-        const std::array<double, 3> source = {get(placed, index[0]), get(placed, index[1]), get(placed, index[2])};
+        const std::array<double, 3> source = {get(placed, index[0]), get(placed, index[1]),
+                                              get(placed, index[2])};
         for (size_t k = 0; k < 3; k++) {
             double value = source[record.corner[k]];
             if (record.clipped >= 0) {
@@ -216,10 +223,12 @@ void TileShaderOf<T>::shadeSurface(const Bucket& bucket, Group group) {
     const bool lit = !toLight_.empty();
     const bool ambient = hasDiffuse && request.needs(ShadeOutput::ambient);
     const bool diffuse = hasDiffuse && lit && request.needs(ShadeOutput::diffuse);
-    const bool specular = material.kind == SurfaceKind::blinnPhong && lit && request.needs(ShadeOutput::specular);
+    const bool specular =
+        material.kind == SurfaceKind::blinnPhong && lit && request.needs(ShadeOutput::specular);
     const bool mirror = material.kind == SurfaceKind::mirror && request.needs(ShadeOutput::mirror);
     const bool distance = request[ShadeOutput::distance], normals = request[ShadeOutput::normals];
-    const bool needNormal = diffuse || specular || mirror || normals, needEye = specular || mirror || distance;
+    const bool needNormal = diffuse || specular || mirror || normals,
+               needEye = specular || mirror || distance;
     if (!(ambient || needNormal || needEye)) return;
 
     // Interpolate what the wanted outputs read.
@@ -262,8 +271,8 @@ void TileShaderOf<T>::shadeSurface(const Bucket& bucket, Group group) {
         const T exponent(material.exponent), scale((material.exponent + 8.0) / kEightPi);
         vec3 reflected = constant(glm::dvec3(0));
         for (size_t l = 0; l < toLight_.size(); l++)
-            reflected = kernels_.add3(
-                reflected, kernels_.blinnPhong(n, toEye, toLight_[l], irradiance_[l], colour, exponent, scale));
+            reflected = kernels_.add3(reflected, kernels_.blinnPhong(n, toEye, toLight_[l], irradiance_[l],
+                                                                     colour, exponent, scale));
         add(ShadeOutput::specular, reflected);
     }
     if (mirror) add(ShadeOutput::mirror, mirrorRadiance(bucket, n, toEye));
@@ -281,20 +290,23 @@ typename TileShaderOf<T>::vec3 TileShaderOf<T>::albedo(const SurfaceMaterial& ma
     const T v = attribute(w, [&](const PlacedMesh& m, uint32_t i) { return uv(m, i).y; });
     const auto isOdd = kernels_.isOddSquare(u, v, T(1.0 / material.checkerSize_m));
     const vec3 odd = constant(material.diffuse2);
-    return vec3(K::select(isOdd, odd.x, even.x), K::select(isOdd, odd.y, even.y), K::select(isOdd, odd.z, even.z));
+    return vec3(K::select(isOdd, odd.x, even.x), K::select(isOdd, odd.y, even.y),
+                K::select(isOdd, odd.z, even.z));
 }
 
 template <class T>
 typename TileShaderOf<T>::vec3 TileShaderOf<T>::mirrorRadiance(const Bucket& bucket, vec3 n, vec3 toEye) {
     const SurfaceEnvironment& environment = job_.scene->environment;
-    if (bucket.cube == nullptr) return kernels_.mul3(constant(bucket.material->reflectance), constant(environment.constant));
+    if (bucket.cube == nullptr)
+        return kernels_.mul3(constant(bucket.material->reflectance), constant(environment.constant));
     vec3 direction = kernels_.mirrorDirection(n, toEye);
     // The environment's cube map is stored without its rotation, scene cube maps in world space.
     if (bucket.cube == job_.environmentCube)
         direction = kernels_.rotateY(direction, T(environment.cosRotation), T(-environment.sinRotation));
     const TextureView texture(*bucket.cube);
     const auto sampling = samplingOf<K>(sampler_, texture.width(), texture.height());
-    return kernels_.mul3(constant(bucket.material->reflectance), kernels_.sampleCubeRgb(texture, direction, sampling));
+    return kernels_.mul3(constant(bucket.material->reflectance),
+                         kernels_.sampleCubeRgb(texture, direction, sampling));
 }
 
 template <class T>
@@ -335,7 +347,8 @@ void TileShaderOf<T>::resolve(const PixelRectangle& rectangle, ShadedImages& ima
                     T sum = sample(0);
                     for (size_t s = 1; s < samples; s++) sum = kernels_.resolveAdd(sum, sample(s));
                     if (samples > 1) sum = kernels_.resolveMean(sum, reciprocal);
-                    float* to = &images[output].at(rectangle.x0 + static_cast<int>(first), rectangle.y0 + row, c);
+                    float* to =
+                        &images[output].at(rectangle.x0 + static_cast<int>(first), rectangle.y0 + row, c);
                     for (int i = 0; i < active; i++) to[i] = static_cast<float>(numberLane(sum, i));
                 }
             });
@@ -352,19 +365,23 @@ void TileShaderOf<T>::copyFirstSample(ShadeOutput output, int channels, const Pi
     for (int y = rectangle.y0; y < rectangle.y1; y++)
         for (int x = rectangle.x0; x < rectangle.x1; x++, pixel++)
             for (int c = 0; c < channels; c++)
-                images[output].at(x, y, c) = static_cast<float>(value(output, tile_.fragmentOf[pixel * samples], c));
+                images[output].at(x, y, c) =
+                    static_cast<float>(value(output, tile_.fragmentOf[pixel * samples], c));
 }
 
 template <class T>
 typename TileShaderOf<T>::vec3 TileShaderOf<T>::sampleEnvironment(vec3 direction) {
     const TextureView texture(job_.scene->environment.latLong);
-    return kernels_.sampleLatLong(texture, direction, samplingOf<K>(sampler_, texture.width(), texture.height()));
+    return kernels_.sampleLatLong(texture, direction,
+                                  samplingOf<K>(sampler_, texture.width(), texture.height()));
 }
 
 // The passes over T, for the source that instantiates them.
 template <class T>
 ArithmeticPasses passesOver() {
-    return {[](const ShadeJob& job) -> std::unique_ptr<TileShader> { return std::make_unique<TileShaderOf<T>>(job); },
+    return {[](const ShadeJob& job) -> std::unique_ptr<TileShader> {
+                return std::make_unique<TileShaderOf<T>>(job);
+            },
             [](const Image<float>& latLong, int size, const CubeFromLatLong& options, int threads) {
                 return cubeFromLatLong<T>(latLong, size, options, threads);
             }};

@@ -1,5 +1,5 @@
-// What the shading passes draw: meshes in world space, materials, lights and the environment. Plain data, made by
-// ar/ from a scene file or by any other caller.
+// What the shading passes draw: meshes in world space, materials, lights and the environment. Plain data,
+// made by ar/ from a scene file or by any other caller.
 #pragma once
 
 #include <array>
@@ -41,7 +41,8 @@ struct SurfaceMesh {
     std::vector<uint32_t> indices;
 };
 
-// Where a mirror looks: into the environment alone, or into a cube map of the scene around the object's centre.
+// Where a mirror looks: into the environment alone, or into a cube map of the scene around the object's
+// centre.
 enum class SurfaceReflection : uint8_t { environment, scene };
 
 // A placed mesh. normalToWorld is the inverse transpose of the upper 3x3 part, up to a positive factor.
@@ -50,9 +51,9 @@ struct SurfaceInstance {
     glm::dmat4 toWorld{1};
     glm::dmat3 normalToWorld{1};
     SurfaceReflection reflection = SurfaceReflection::environment;
-    int cubeSize = 0;              // of the scene reflection, in texels
-    glm::dvec3 cubeCentre_m{0};    // world space
-    bool twoSided = true;          // false: culled when seen from behind
+    int cubeSize = 0;            // of the scene reflection, in texels
+    glm::dvec3 cubeCentre_m{0};  // world space
+    bool twoSided = true;        // false: culled when seen from behind
 };
 
 // Radiance from far away over directions: a lat-long image (OpenEXR convention), or nothing (black).

@@ -29,8 +29,8 @@ glm::dvec4 depthRow(const glm::dvec4& wRow, double near_m, double far_m) {
 }  // namespace
 
 View cameraView(const PinholeCamera& camera) {
-    ETALON_CHECK(camera.width > 0 && camera.height > 0 && camera.fx > 0 && camera.fy > 0 && camera.near_m > 0 &&
-                     camera.near_m < camera.far_m,
+    ETALON_CHECK(camera.width > 0 && camera.height > 0 && camera.fx > 0 && camera.fy > 0 &&
+                     camera.near_m > 0 && camera.near_m < camera.far_m,
                  "{}x{}, fx {}, fy {}, near {}, far {}", camera.width, camera.height, camera.fx, camera.fy,
                  camera.near_m, camera.far_m);
     View view;
@@ -41,8 +41,10 @@ View cameraView(const PinholeCamera& camera) {
     const glm::dvec4 up = alongAxis(camera.up, camera.position);
     const glm::dvec4 w = alongAxis(scaled(camera.backward, -1.0), camera.position);
     // Pixel x = cx + fx right / w, pixel y = cy - fy up / w, then to [-1, 1].
-    view.worldToClip[0] = combine(2.0 * camera.fx / camera.width, right, 2.0 * camera.cx / camera.width - 1.0, w);
-    view.worldToClip[1] = combine(2.0 * camera.fy / camera.height, up, 1.0 - 2.0 * camera.cy / camera.height, w);
+    view.worldToClip[0] =
+        combine(2.0 * camera.fx / camera.width, right, 2.0 * camera.cx / camera.width - 1.0, w);
+    view.worldToClip[1] =
+        combine(2.0 * camera.fy / camera.height, up, 1.0 - 2.0 * camera.cy / camera.height, w);
     view.worldToClip[2] = depthRow(w, camera.near_m, camera.far_m);
     view.worldToClip[3] = w;
     view.centreX_px = camera.cx;

@@ -20,8 +20,8 @@ struct View {
     bool mirrored = false;  // counter-clockwise faces appear clockwise (cube faces)
 };
 
-// A pinhole camera. fx, fy, cx, cy in pixels (pixel centres at +0.5, row 0 on top); axes: the camera's right, up and
-// backward direction in world space, orthonormal; 0 < near < far in metres.
+// A pinhole camera. fx, fy, cx, cy in pixels (pixel centres at +0.5, row 0 on top); axes: the camera's right,
+// up and backward direction in world space, orthonormal; 0 < near < far in metres.
 struct PinholeCamera {
     int width = 0, height = 0;
     double fx = 0, fy = 0, cx = 0, cy = 0;

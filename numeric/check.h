@@ -29,7 +29,8 @@ class InputError : public std::runtime_error {
 }  // namespace etalon
 
 // Throws PreconditionError with the formatted values unless the condition holds.
-#define ETALON_CHECK(condition, ...)                                                                         \
-    do {                                                                                                     \
-        if (!(condition)) ::etalon::failPrecondition(#condition, __FILE__, __LINE__, fmt::format(__VA_ARGS__)); \
+#define ETALON_CHECK(condition, ...)                                                              \
+    do {                                                                                          \
+        if (!(condition))                                                                         \
+            ::etalon::failPrecondition(#condition, __FILE__, __LINE__, fmt::format(__VA_ARGS__)); \
     } while (false)

@@ -1,6 +1,6 @@
 // What a kernel text may use, for every number type it is compiled for: float, double, Lanes<S, N>,
-// Rounded<Format, D> and Truth. The class that includes a kernel text includes "numeric/kernel_scope.inc" first.
-// The subset and a worked example stand in docs/kernels.md.
+// Rounded<Format, D> and Truth. The class that includes a kernel text includes "numeric/kernel_scope.inc"
+// first. The subset and a worked example stand in docs/kernels.md.
 #pragma once
 
 #include <cmath>
@@ -15,8 +15,8 @@
 
 namespace etalon {
 
-// Number of values that a T holds side by side; the scalar it is stored as; the integer type that goes with it.
-// Number types of other headers specialise this.
+// Number of values that a T holds side by side; the scalar it is stored as; the integer type that goes with
+// it. Number types of other headers specialise this.
 template <class T>
 struct NumberTraits {
     static_assert(std::is_floating_point_v<T>);
@@ -59,8 +59,8 @@ struct FromInteger<Lanes<S, N>> {
     static Lanes<S, N> of(Lanes<int32_t, N> a) { return convertLanes<S>(a); }
 };
 
-// The operations looked up where they are instantiated: kernel classes call these, so that they find the operations
-// of number types whose headers were included after them.
+// The operations looked up where they are instantiated: kernel classes call these, so that they find the
+// operations of number types whose headers were included after them.
 namespace lookup {
 template <class C, class T>
 T selectOf(const C& c, const T& a, const T& b) {

@@ -1,6 +1,6 @@
 // Lanes<S, N>: N numbers of the scalar type S that are computed side by side (SIMD), with the operations that
-// kernel texts use. The scalar instance is Lanes<S, 1>. Every operation is the IEEE operation per lane, so the
-// number of lanes changes no bit.
+// kernel texts use. The scalar instance is Lanes<S, 1>. Every operation is the IEEE operation per lane, so
+// the number of lanes changes no bit.
 //
 // Built on the vector types that g++ and clang++ share. std::experimental::simd was tried first: with
 // libstdc++ 12, clang++ 14 and 16 drop masked assignments (where(m, v) = w leaves v unchanged) on x86-64-v4.
@@ -31,7 +31,8 @@ inline constexpr int kLanes = kNativeLanes<float>;
 
 // The signed integer of the same size as S: the element of a comparison's result.
 template <class S>
-using MaskElement = std::conditional_t<sizeof(S) == 8, int64_t, std::conditional_t<sizeof(S) == 4, int32_t, int8_t>>;
+using MaskElement =
+    std::conditional_t<sizeof(S) == 8, int64_t, std::conditional_t<sizeof(S) == 4, int32_t, int8_t>>;
 
 template <class S, int N>
 struct Mask;
@@ -110,15 +111,17 @@ Lanes<S, N> select(Mask<S, N> c, Lanes<S, N> a, Lanes<S, N> b) {
 }
 template <class S, int N>
 Lanes<S, N> squareRoot(Lanes<S, N> a) {
-    for (int i = 0; i < N; i++) a.v[i] = static_cast<S>(sizeof(S) == 4 ? __builtin_sqrtf(static_cast<float>(a.v[i]))
-                                                                       : __builtin_sqrt(a.v[i]));
+    for (int i = 0; i < N; i++)
+        a.v[i] = static_cast<S>(sizeof(S) == 4 ? __builtin_sqrtf(static_cast<float>(a.v[i]))
+                                               : __builtin_sqrt(a.v[i]));
     return a;
 }
 // Largest whole number that is not greater; -0 stays -0.
 template <class S, int N>
 Lanes<S, N> floorOf(Lanes<S, N> a) {
-    for (int i = 0; i < N; i++) a.v[i] = static_cast<S>(sizeof(S) == 4 ? __builtin_floorf(static_cast<float>(a.v[i]))
-                                                                       : __builtin_floor(a.v[i]));
+    for (int i = 0; i < N; i++)
+        a.v[i] = static_cast<S>(sizeof(S) == 4 ? __builtin_floorf(static_cast<float>(a.v[i]))
+                                               : __builtin_floor(a.v[i]));
     return a;
 }
 template <class S, int N>

@@ -28,10 +28,11 @@ void parallelFor(size_t count, int threads, const std::function<void(size_t)>& b
                                       static_cast<size_t>(std::max(wanted, hardwareThreads())));
     tbb::task_arena arena(wanted);
     arena.execute([&] {
-        tbb::parallel_for(tbb::blocked_range<size_t>(0, count, 1), [&](const tbb::blocked_range<size_t>& range) {
-            requireDefaultFpEnvironment();
-            for (size_t i = range.begin(); i != range.end(); i++) body(i);
-        });
+        tbb::parallel_for(tbb::blocked_range<size_t>(0, count, 1),
+                          [&](const tbb::blocked_range<size_t>& range) {
+                              requireDefaultFpEnvironment();
+                              for (size_t i = range.begin(); i != range.end(); i++) body(i);
+                          });
     });
 }
 

@@ -12,30 +12,53 @@ enum Plane { planeW, planeNear, planeFar, planeRight, planeLeft, planeTop, plane
 
 double signedDistance(int plane, const ClipVertex& p, const GuardBand& guard) {
     switch (plane) {
-        case planeW: return p.w - kMinW;
-        case planeNear: return p.z;
-        case planeFar: return p.w - p.z;
-        case planeRight: return guard.x * p.w - p.x;
-        case planeLeft: return guard.x * p.w + p.x;
-        case planeTop: return guard.y * p.w - p.y;
-        default: return guard.y * p.w + p.y;
+        case planeW:
+            return p.w - kMinW;
+        case planeNear:
+            return p.z;
+        case planeFar:
+            return p.w - p.z;
+        case planeRight:
+            return guard.x * p.w - p.x;
+        case planeLeft:
+            return guard.x * p.w + p.x;
+        case planeTop:
+            return guard.y * p.w - p.y;
+        default:
+            return guard.y * p.w + p.y;
     }
 }
 
 // Puts a point that was computed to be on the plane exactly onto it.
 void placeOnPlane(int plane, ClipVertex& p, const GuardBand& guard) {
     switch (plane) {
-        case planeW: p.w = kMinW; break;
-        case planeNear: p.z = 0; break;
-        case planeFar: p.z = p.w; break;
-        case planeRight: p.x = guard.x * p.w; break;
-        case planeLeft: p.x = -(guard.x * p.w); break;
-        case planeTop: p.y = guard.y * p.w; break;
-        default: p.y = -(guard.y * p.w); break;
+        case planeW:
+            p.w = kMinW;
+            break;
+        case planeNear:
+            p.z = 0;
+            break;
+        case planeFar:
+            p.z = p.w;
+            break;
+        case planeRight:
+            p.x = guard.x * p.w;
+            break;
+        case planeLeft:
+            p.x = -(guard.x * p.w);
+            break;
+        case planeTop:
+            p.y = guard.y * p.w;
+            break;
+        default:
+            p.y = -(guard.y * p.w);
+            break;
     }
 }
 
-double between(double a, double b, double t) { return std::clamp(a + t * (b - a), std::min(a, b), std::max(a, b)); }
+double between(double a, double b, double t) {
+    return std::clamp(a + t * (b - a), std::min(a, b), std::max(a, b));
+}
 
 // The intersection of the edge from the inside vertex a to the outside vertex b. Taken in this direction from
 // both triangles of a shared edge, so that both get the same bits.

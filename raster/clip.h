@@ -14,8 +14,9 @@ struct PolygonVertex {
     std::array<double, 3> barycentric{};
 };
 
-// A plane adds one vertex to a convex polygon. Rounding can make a polygon slightly concave; then a plane can add as
-// many vertices as there are pairs of neighbours on either side of it, n / 2: 3, 4, 6, 9, 13, 19, 28, 42.
+// A plane adds one vertex to a convex polygon. Rounding can make a polygon slightly concave; then a plane can
+// add as many vertices as there are pairs of neighbours on either side of it, n / 2: 3, 4, 6, 9, 13, 19,
+// 28, 42.
 inline constexpr int kMaxPolygonVertices = 42;
 
 // A polygon; count 0: nothing is left.

@@ -13,9 +13,12 @@ constexpr double kLargestDepth = 0x1p100;
 double biasUnit(DepthFormat format, double largest) {
     constexpr int kFloatFractionBits = 23;
     switch (format) {
-        case DepthFormat::d16: return 0x1p-16;
-        case DepthFormat::d24: return 0x1p-24;
-        case DepthFormat::d32f: break;
+        case DepthFormat::d16:
+            return 0x1p-16;
+        case DepthFormat::d24:
+            return 0x1p-24;
+        case DepthFormat::d32f:
+            break;
     }
     return std::ldexp(1.0, std::ilogb(std::max(largest, kSmallestDepth)) - kFloatFractionBits);
 }
@@ -35,8 +38,12 @@ std::array<double, 3> vertexDepths(const TriangleRecord& record, RasterReal real
 double depthBias(const DepthBias& bias, DepthFormat format, const TriangleRecord& record,
                  const std::array<double, 3>& z, int subpixelBits) {
     if (bias.constant == 0 && bias.slopeScale == 0) return 0;
-    const auto x = [&](size_t i) { return static_cast<double>(int64_t{record.x_subpx[i]} - record.x_subpx[0]); };
-    const auto y = [&](size_t i) { return static_cast<double>(int64_t{record.y_subpx[i]} - record.y_subpx[0]); };
+    const auto x = [&](size_t i) {
+        return static_cast<double>(int64_t{record.x_subpx[i]} - record.x_subpx[0]);
+    };
+    const auto y = [&](size_t i) {
+        return static_cast<double>(int64_t{record.y_subpx[i]} - record.y_subpx[0]);
+    };
     const double perPixel = static_cast<double>(1 << subpixelBits) / static_cast<double>(record.area);
     const double slopeX = ((z[1] - z[0]) * y(2) - (z[2] - z[0]) * y(1)) * perPixel;
     const double slopeY = ((z[2] - z[0]) * x(1) - (z[1] - z[0]) * x(2)) * perPixel;
@@ -50,9 +57,12 @@ double depthBias(const DepthBias& bias, DepthFormat format, const TriangleRecord
 
 uint32_t farthestDepth(DepthFormat format) {
     switch (format) {
-        case DepthFormat::d16: return 0xffff;
-        case DepthFormat::d24: return 0xffffff;
-        case DepthFormat::d32f: return 0x3f800000;
+        case DepthFormat::d16:
+            return 0xffff;
+        case DepthFormat::d24:
+            return 0xffffff;
+        case DepthFormat::d32f:
+            return 0x3f800000;
     }
     return 0;
 }

@@ -13,9 +13,12 @@ namespace etalon {
 // 2^n - 1 of a UNORM format; 0 for D32F.
 inline double depthLevels(DepthFormat format) {
     switch (format) {
-        case DepthFormat::d16: return 65535.0;
-        case DepthFormat::d24: return 16777215.0;
-        case DepthFormat::d32f: return 0.0;
+        case DepthFormat::d16:
+            return 65535.0;
+        case DepthFormat::d24:
+            return 16777215.0;
+        case DepthFormat::d32f:
+            return 0.0;
     }
     return 0.0;
 }
@@ -46,7 +49,8 @@ Lanes<int32_t, N> storedDepth(DepthFormat format, DepthRounding rounding, Lanes<
 // The vertex depths z_i of rule 5, as the raster arithmetic has them.
 std::array<double, 3> vertexDepths(const TriangleRecord& record, RasterReal real);
 
-// The bias of rule 7 for a triangle record with the vertex depths z, in depth units; 0 for the default DepthBias.
+// The bias of rule 7 for a triangle record with the vertex depths z, in depth units; 0 for the default
+// DepthBias.
 double depthBias(const DepthBias& bias, DepthFormat format, const TriangleRecord& record,
                  const std::array<double, 3>& z, int subpixelBits);
 

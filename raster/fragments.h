@@ -9,12 +9,12 @@
 
 namespace etalon {
 
-// A fragment is shaded at the pixel's centre, or at its sample of lowest index when the centre is not inside the
-// triangle (rule 5).
+// A fragment is shaded at the pixel's centre, or at its sample of lowest index when the centre is not inside
+// the triangle (rule 5).
 struct Fragment {
     int32_t x, y;
-    uint32_t id;                // index of the triangle record, or kNoTriangle
-    int32_t x_subpx, y_subpx;   // where it is shaded
+    uint32_t id;               // index of the triangle record, or kNoTriangle
+    int32_t x_subpx, y_subpx;  // where it is shaded
 };
 
 // The pixels x0 <= x < x1, y0 <= y < y1.

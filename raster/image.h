@@ -21,9 +21,9 @@ class Image {
   public:
     Image() = default;
     Image(int width, int height, int channels = 1) : width_(width), height_(height), channels_(channels) {
-        ETALON_CHECK(width >= 0 && width <= kMaxImageSize && height >= 0 && height <= kMaxImageSize &&
-                         channels >= 1,
-                     "image of {}x{} with {} channels", width, height, channels);
+        ETALON_CHECK(
+            width >= 0 && width <= kMaxImageSize && height >= 0 && height <= kMaxImageSize && channels >= 1,
+            "image of {}x{} with {} channels", width, height, channels);
         values_.resize(pixelCount() * static_cast<size_t>(channels));
     }
 

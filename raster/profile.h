@@ -1,5 +1,5 @@
-// Profiles: named sets of choices for arithmetic, storage and fixed function. What a run differs in from another
-// run of the same scene is this, and nothing else.
+// Profiles: named sets of choices for arithmetic, storage and fixed function. What a run differs in from
+// another run of the same scene is this, and nothing else.
 #pragma once
 
 #include <span>
@@ -11,7 +11,17 @@
 namespace etalon {
 
 // The number type that fragments are shaded in.
-enum class FragmentArithmetic : uint8_t { truth, fp64, fp32, fp32Flush, fp32Nv40, fp16, fp16Nv40, bf16, fp24R300 };
+enum class FragmentArithmetic : uint8_t {
+    truth,
+    fp64,
+    fp32,
+    fp32Flush,
+    fp32Nv40,
+    fp16,
+    fp16Nv40,
+    bf16,
+    fp24R300
+};
 
 struct Profile {
     std::string_view name;

@@ -26,15 +26,16 @@ std::vector<Chunk> cutIntoChunks(std::span<const Draw> draws) {
         ETALON_CHECK(draws[d].indices.size() % 3 == 0, "draw {} has {} indices", d, draws[d].indices.size());
         const size_t triangles = draws[d].indices.size() / 3;
         for (size_t first = 0; first < triangles; first += kTrianglesPerChunk)
-            chunks.push_back({static_cast<uint32_t>(d), first, std::min(first + kTrianglesPerChunk, triangles)});
+            chunks.push_back(
+                {static_cast<uint32_t>(d), first, std::min(first + kTrianglesPerChunk, triangles)});
     }
     return chunks;
 }
 
 void checkIndices(const Draw& draw, const Chunk& chunk) {
     for (size_t i = 3 * chunk.first; i < 3 * chunk.last; i++)
-        ETALON_CHECK(draw.indices[i] < draw.vertices.size(), "index {} of draw {} is {}, vertices: {}", i, chunk.draw,
-                     draw.indices[i], draw.vertices.size());
+        ETALON_CHECK(draw.indices[i] < draw.vertices.size(), "index {} of draw {} is {}, vertices: {}", i,
+                     chunk.draw, draw.indices[i], draw.vertices.size());
 }
 
 void add(RasterStatistics& sum, const RasterStatistics& part) {
@@ -48,7 +49,8 @@ void add(RasterStatistics& sum, const RasterStatistics& part) {
 }
 
 // Sets the triangles up in parallel and appends their records to the target in submission order.
-RasterStatistics setUp(RenderTarget& target, const Viewport& viewport, std::span<const Draw> draws, int threads) {
+RasterStatistics setUp(RenderTarget& target, const Viewport& viewport, std::span<const Draw> draws,
+                       int threads) {
     const std::vector<Chunk> chunks = cutIntoChunks(draws);
     std::vector<TriangleSetup> setups(chunks.size(), TriangleSetup(viewport, target.format.subpixelBits));
     parallelFor(chunks.size(), threads, [&](size_t c) {
@@ -61,7 +63,8 @@ RasterStatistics setUp(RenderTarget& target, const Viewport& viewport, std::span
         const auto clippedBase = static_cast<int32_t>(target.clippedCorners.size());
         for (TriangleRecord& record : setup.records)
             if (record.clipped >= 0) record.clipped += clippedBase;
-        ETALON_CHECK(target.triangles.size() + setup.records.size() < kNoTriangle, "more than 2^32 - 1 triangles");
+        ETALON_CHECK(target.triangles.size() + setup.records.size() < kNoTriangle,
+                     "more than 2^32 - 1 triangles");
         target.triangles.insert(target.triangles.end(), setup.records.begin(), setup.records.end());
         target.clippedCorners.insert(target.clippedCorners.end(), setup.clippedCorners.begin(),
                                      setup.clippedCorners.end());
@@ -82,10 +85,11 @@ Tiles tilesOf(const Viewport& viewport, int tileSize) {
     return {tileSize, firstX, firstY, lastX - firstX + 1, lastY - firstY + 1};
 }
 
-// Lists for each tile the records whose bounding box touches it, in submission order. A group is listed once, by
-// its first record, in every tile that one of its pieces touches.
+// Lists for each tile the records whose bounding box touches it, in submission order. A group is listed once,
+// by its first record, in every tile that one of its pieces touches.
 std::vector<std::vector<uint32_t>> bin(const RenderTarget& target, const Tiles& tiles, size_t firstRecord) {
-    std::vector<std::vector<uint32_t>> lists(static_cast<size_t>(tiles.columns) * static_cast<size_t>(tiles.rows));
+    std::vector<std::vector<uint32_t>> lists(static_cast<size_t>(tiles.columns) *
+                                             static_cast<size_t>(tiles.rows));
     const int n = target.format.subpixelBits;
     for (size_t r = firstRecord; r < target.triangles.size();) {
         const size_t count = std::max<size_t>(target.triangles[r].groupSize, 1);
@@ -108,8 +112,8 @@ std::vector<std::vector<uint32_t>> bin(const RenderTarget& target, const Tiles& 
         const int y1 = std::min(tileOf(yMax, tiles.firstY, tiles.rows), tiles.rows - 1);
         for (int y = y0; y <= y1; y++)
             for (int x = x0; x <= x1; x++)
-                lists[static_cast<size_t>(y) * static_cast<size_t>(tiles.columns) + static_cast<size_t>(x)].push_back(
-                    static_cast<uint32_t>(r));
+                lists[static_cast<size_t>(y) * static_cast<size_t>(tiles.columns) + static_cast<size_t>(x)]
+                    .push_back(static_cast<uint32_t>(r));
         r += count;
     }
     return lists;
@@ -143,9 +147,10 @@ class TileRasterizerPool {
 RasterStatistics rasterize(RenderTarget& target, const Viewport& viewport, std::span<const Draw> draws,
                            const RasterOptions& options) {
     ETALON_CHECK(viewport.width >= 1 && viewport.height >= 1 && viewport.x >= 0 && viewport.y >= 0 &&
-                     viewport.x <= target.width() - viewport.width && viewport.y <= target.height() - viewport.height,
-                 "viewport {},{} {}x{} of a {}x{} target", viewport.x, viewport.y, viewport.width, viewport.height,
-                 target.width(), target.height());
+                     viewport.x <= target.width() - viewport.width &&
+                     viewport.y <= target.height() - viewport.height,
+                 "viewport {},{} {}x{} of a {}x{} target", viewport.x, viewport.y, viewport.width,
+                 viewport.height, target.width(), target.height());
     ETALON_CHECK(options.tileSize >= 8 && options.tileSize <= 256 && options.tileSize % kBlockSize == 0,
                  "tileSize = {}", options.tileSize);
 

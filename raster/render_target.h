@@ -24,26 +24,26 @@ struct TriangleRecord {
     std::array<double, 3> z;                  // z / w
     std::array<double, 3> reciprocalW;        // 1 / w
     uint32_t draw, triangle;                  // which triangle of which draw
-    std::array<uint8_t, 3> corner;            // record vertex i is the source vertex corner[i], when not clipped
-    bool front;                               // facing
-    bool reversed;                            // a piece whose sign is opposite to its polygon's (rule 2)
-    uint8_t groupSize;                        // > 0: the first of the groupSize pieces of a polygon with mixed signs
-    int32_t clipped;                          // -1, or the index of its entry in RenderTarget::clippedCorners
+    std::array<uint8_t, 3> corner;  // record vertex i is the source vertex corner[i], when not clipped
+    bool front;                     // facing
+    bool reversed;                  // a piece whose sign is opposite to its polygon's (rule 2)
+    uint8_t groupSize;              // > 0: the first of the groupSize pieces of a polygon with mixed signs
+    int32_t clipped;                // -1, or the index of its entry in RenderTarget::clippedCorners
 };
 
 // For the three vertices of a clipped piece: their barycentric coordinates in the source triangle.
 using ClippedCorners = std::array<std::array<double, 3>, 3>;
 
 struct RenderTargetFormat {
-    int samples = 1;  // 1, 4 or 16
+    int samples = 1;       // 1, 4 or 16
     int subpixelBits = 8;  // 4 to 8
     DepthFormat depth = DepthFormat::d32f;
     DepthRounding depthRounding = DepthRounding::exact;
     RasterReal real = RasterReal::fp32;
 };
 
-// width x height pixels with `samples` planes each of depth (stored integers, rule 6), stencil and triangle id
-// (an index into `triangles`, or kNoTriangle). Cleared to the farthest depth, stencil 0 and kNoTriangle.
+// width x height pixels with `samples` planes each of depth (stored integers, rule 6), stencil and triangle
+// id (an index into `triangles`, or kNoTriangle). Cleared to the farthest depth, stencil 0 and kNoTriangle.
 struct RenderTarget {
     RenderTarget(int width, int height, const RenderTargetFormat& targetFormat);
 

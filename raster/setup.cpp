@@ -9,10 +9,13 @@ namespace {
 constexpr double kMaxClipCoordinate = 0x1p500;
 constexpr double kGuardBandHalfWidth_px = 65536.0;
 
-// False for NaN and for magnitudes that clipping could overflow with. Negated on purpose: NaN fails every test.
+// False for NaN and for magnitudes that clipping could overflow with. Negated on purpose: NaN fails every
+// test.
 bool isUsable(double c) { return std::fabs(c) < kMaxClipCoordinate; }
 
-bool isUsable(const ClipVertex& p) { return isUsable(p.x) && isUsable(p.y) && isUsable(p.z) && isUsable(p.w); }
+bool isUsable(const ClipVertex& p) {
+    return isUsable(p.x) && isUsable(p.y) && isUsable(p.z) && isUsable(p.w);
+}
 
 // Adding 0 turns -0 into +0 and leaves every other value.
 ClipVertex withoutNegativeZero(const ClipVertex& p) { return {p.x + 0.0, p.y + 0.0, p.z + 0.0, p.w + 0.0}; }
@@ -80,12 +83,15 @@ bool isFront(int64_t area, const DrawState& state) { return (area < 0) != state.
 bool TriangleSetup::isCulled(int64_t area, const DrawState& state) {
     const bool culled = area == 0 || (state.cull == CullMode::back && !isFront(area, state)) ||
                         (state.cull == CullMode::front && isFront(area, state));
-    if (area == 0) statistics.zeroArea++;
-    else if (culled) statistics.culled++;
+    if (area == 0)
+        statistics.zeroArea++;
+    else if (culled)
+        statistics.culled++;
     return culled;
 }
 
-TriangleRecord TriangleSetup::makeRecord(const std::array<SnappedVertex, 3>& v, int64_t area, bool front) const {
+TriangleRecord TriangleSetup::makeRecord(const std::array<SnappedVertex, 3>& v, int64_t area,
+                                         bool front) const {
     TriangleRecord record{};
     const std::array<uint8_t, 3> order =
         area > 0 ? std::array<uint8_t, 3>{0, 1, 2} : std::array<uint8_t, 3>{0, 2, 1};
@@ -103,8 +109,8 @@ TriangleRecord TriangleSetup::makeRecord(const std::array<SnappedVertex, 3>& v, 
     return record;
 }
 
-void TriangleSetup::addTriangle(const std::array<ClipVertex, 3>& source, const DrawState& state, uint32_t draw,
-                                uint32_t index) {
+void TriangleSetup::addTriangle(const std::array<ClipVertex, 3>& source, const DrawState& state,
+                                uint32_t draw, uint32_t index) {
     statistics.triangles++;
     std::array<ClipVertex, 3> triangle;
     for (size_t i = 0; i < 3; i++) {
@@ -116,12 +122,15 @@ void TriangleSetup::addTriangle(const std::array<ClipVertex, 3>& source, const D
     }
     Polygon polygon;
     switch (clipTriangle(triangle, guard_, state.depthClamp, polygon)) {
-        case ClipResult::rejected: statistics.rejected++; return;
+        case ClipResult::rejected:
+            statistics.rejected++;
+            return;
         case ClipResult::clipped:
             statistics.clipped++;
             addPolygon(polygon, state, draw, index);
             return;
-        case ClipResult::inside: break;
+        case ClipResult::inside:
+            break;
     }
     const std::array<SnappedVertex, 3> v = {snap(triangle[0]), snap(triangle[1]), snap(triangle[2])};
     const int64_t area = signedArea(v[0], v[1], v[2]);
@@ -133,7 +142,8 @@ void TriangleSetup::addTriangle(const std::array<ClipVertex, 3>& source, const D
     statistics.records++;
 }
 
-void TriangleSetup::addPolygon(const Polygon& polygon, const DrawState& state, uint32_t draw, uint32_t index) {
+void TriangleSetup::addPolygon(const Polygon& polygon, const DrawState& state, uint32_t draw,
+                               uint32_t index) {
     std::array<SnappedVertex, kMaxPolygonVertices> v;
     const size_t count = static_cast<size_t>(polygon.count);
     for (size_t i = 0; i < count; i++) v[i] = snap(polygon.vertices[i].position);

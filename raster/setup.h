@@ -16,7 +16,9 @@ struct EdgeFunction {
     int64_t stepX, stepY, constant;
     bool ownsZero;  // top or left edge: samples with E = 0 are inside
 
-    int64_t at(int64_t x_subpx, int64_t y_subpx) const { return stepX * x_subpx + stepY * y_subpx + constant; }
+    int64_t at(int64_t x_subpx, int64_t y_subpx) const {
+        return stepX * x_subpx + stepY * y_subpx + constant;
+    }
 };
 
 std::array<EdgeFunction, 3> edgeFunctions(const TriangleRecord& record);
@@ -41,7 +43,8 @@ class TriangleSetup {
     SnappedVertex snap(const ClipVertex& p) const;
     bool isCulled(int64_t area, const DrawState& state);
     TriangleRecord makeRecord(const std::array<SnappedVertex, 3>& v, int64_t area, bool front) const;
-    void addTriangle(const std::array<ClipVertex, 3>& triangle, const DrawState& state, uint32_t draw, uint32_t index);
+    void addTriangle(const std::array<ClipVertex, 3>& triangle, const DrawState& state, uint32_t draw,
+                     uint32_t index);
     void addPolygon(const Polygon& polygon, const DrawState& state, uint32_t draw, uint32_t index);
 
     GuardBand guard_;

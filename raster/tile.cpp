@@ -23,7 +23,7 @@ struct TileRasterizer::Piece {
 
 // Eight pixels of one sample plane, starting at a multiple of 8 inside the tile.
 struct TileRasterizer::BlockRow {
-    int x, y;              // target pixels
+    int x, y;  // target pixels
     int sample;
     int64_t x_subpx, y_subpx;  // sample position of the first pixel
 };
@@ -36,42 +36,66 @@ RowInt laneIndices() {
 
 BlockMask compareDepth(Compare compare, RowInt a, RowInt b) {
     switch (compare) {
-        case Compare::never: return BlockMask(false);
-        case Compare::less: return a < b;
-        case Compare::equal: return a == b;
-        case Compare::lessEqual: return a <= b;
-        case Compare::greater: return a > b;
-        case Compare::notEqual: return a != b;
-        case Compare::greaterEqual: return a >= b;
-        case Compare::always: return BlockMask(true);
+        case Compare::never:
+            return BlockMask(false);
+        case Compare::less:
+            return a < b;
+        case Compare::equal:
+            return a == b;
+        case Compare::lessEqual:
+            return a <= b;
+        case Compare::greater:
+            return a > b;
+        case Compare::notEqual:
+            return a != b;
+        case Compare::greaterEqual:
+            return a >= b;
+        case Compare::always:
+            return BlockMask(true);
     }
     return BlockMask(false);
 }
 
 bool compareStencil(Compare compare, int a, int b) {
     switch (compare) {
-        case Compare::never: return false;
-        case Compare::less: return a < b;
-        case Compare::equal: return a == b;
-        case Compare::lessEqual: return a <= b;
-        case Compare::greater: return a > b;
-        case Compare::notEqual: return a != b;
-        case Compare::greaterEqual: return a >= b;
-        case Compare::always: return true;
+        case Compare::never:
+            return false;
+        case Compare::less:
+            return a < b;
+        case Compare::equal:
+            return a == b;
+        case Compare::lessEqual:
+            return a <= b;
+        case Compare::greater:
+            return a > b;
+        case Compare::notEqual:
+            return a != b;
+        case Compare::greaterEqual:
+            return a >= b;
+        case Compare::always:
+            return true;
     }
     return false;
 }
 
 uint8_t stencilResult(StencilOperation operation, uint8_t stored, uint8_t reference) {
     switch (operation) {
-        case StencilOperation::keep: return stored;
-        case StencilOperation::zero: return 0;
-        case StencilOperation::replace: return reference;
-        case StencilOperation::incrementClamp: return static_cast<uint8_t>(std::min(stored + 1, 255));
-        case StencilOperation::decrementClamp: return static_cast<uint8_t>(std::max(stored - 1, 0));
-        case StencilOperation::invert: return static_cast<uint8_t>(~stored);
-        case StencilOperation::incrementWrap: return static_cast<uint8_t>(stored + 1);
-        case StencilOperation::decrementWrap: return static_cast<uint8_t>(stored - 1);
+        case StencilOperation::keep:
+            return stored;
+        case StencilOperation::zero:
+            return 0;
+        case StencilOperation::replace:
+            return reference;
+        case StencilOperation::incrementClamp:
+            return static_cast<uint8_t>(std::min(stored + 1, 255));
+        case StencilOperation::decrementClamp:
+            return static_cast<uint8_t>(std::max(stored - 1, 0));
+        case StencilOperation::invert:
+            return static_cast<uint8_t>(~stored);
+        case StencilOperation::incrementWrap:
+            return static_cast<uint8_t>(stored + 1);
+        case StencilOperation::decrementWrap:
+            return static_cast<uint8_t>(stored - 1);
     }
     return stored;
 }
@@ -94,7 +118,8 @@ void TileRasterizer::run(RenderTarget& target, const TileRectangle& rectangle, s
             continue;
         }
         group.clear();
-        for (uint32_t k = 0; k < record.groupSize; k++) group.push_back(preparePiece(target, index + k, state));
+        for (uint32_t k = 0; k < record.groupSize; k++)
+            group.push_back(preparePiece(target, index + k, state));
         drawGroup(group);
     }
     store(target);
@@ -133,7 +158,8 @@ void TileRasterizer::store(RenderTarget& target) const {
 
 size_t TileRasterizer::rowOffset(const BlockRow& row) const {
     const int line = row.sample * tileSize_ + (row.y - rectangle_.tileY);
-    return static_cast<size_t>(line) * static_cast<size_t>(tileSize_) + static_cast<size_t>(row.x - rectangle_.tileX);
+    return static_cast<size_t>(line) * static_cast<size_t>(tileSize_) +
+           static_cast<size_t>(row.x - rectangle_.tileX);
 }
 
 TileRasterizer::Piece TileRasterizer::preparePiece(const RenderTarget& target, uint32_t recordIndex,
@@ -159,8 +185,10 @@ TileRasterizer::Piece TileRasterizer::preparePiece(const RenderTarget& target, u
 
 void TileRasterizer::drawPiece(const Piece& piece) {
     if (piece.x0 > piece.x1 || piece.y0 > piece.y1) return;
-    const int blockX0 = (piece.x0 - rectangle_.tileX) / kBlockSize, blockX1 = (piece.x1 - rectangle_.tileX) / kBlockSize;
-    const int blockY0 = (piece.y0 - rectangle_.tileY) / kBlockSize, blockY1 = (piece.y1 - rectangle_.tileY) / kBlockSize;
+    const int blockX0 = (piece.x0 - rectangle_.tileX) / kBlockSize,
+              blockX1 = (piece.x1 - rectangle_.tileX) / kBlockSize;
+    const int blockY0 = (piece.y0 - rectangle_.tileY) / kBlockSize,
+              blockY1 = (piece.y1 - rectangle_.tileY) / kBlockSize;
     for (int by = blockY0; by <= blockY1; by++)
         for (int bx = blockX0; bx <= blockX1; bx++)
             for (int s = 0; s < format_.samples; s++)
@@ -191,12 +219,14 @@ void TileRasterizer::drawBlock(const Piece& piece, int blockX, int blockY, int s
     }
     const RowInt lanes = laneIndices();
     const bool wholeRows = blockX >= rectangle_.x0 && blockX + kBlockSize <= rectangle_.x1;
-    const int firstRow = std::max(piece.y0 - blockY, 0), lastRow = std::min(piece.y1 - blockY, kBlockSize - 1);
+    const int firstRow = std::max(piece.y0 - blockY, 0),
+              lastRow = std::min(piece.y1 - blockY, kBlockSize - 1);
     for (int j = firstRow; j <= lastRow; j++) {
         RowInt outside(0.0);
         for (int k = 0; k < undecidedCount; k++) {
             const int32_t atRow = undecided[k].value + undecided[k].stepY * j;
-            outside = outside | (RowInt(RowInt::Vector{} + atRow) + RowInt(RowInt::Vector{} + undecided[k].stepX) * lanes);
+            outside = outside | (RowInt(RowInt::Vector{} + atRow) +
+                                 RowInt(RowInt::Vector{} + undecided[k].stepX) * lanes);
         }
         BlockMask covered = outside >= RowInt(0.0);
         const BlockRow here{blockX, blockY + j, sample, row.x_subpx, row.y_subpx + (int64_t{j} << n)};
@@ -208,7 +238,8 @@ void TileRasterizer::drawBlock(const Piece& piece, int blockX, int blockY, int s
 BlockMask TileRasterizer::insideRectangle(int x, int y) const {
     BlockMask inside(false);
     if (y < rectangle_.y0 || y >= rectangle_.y1) return inside;
-    for (int i = 0; i < kBlockSize; i++) inside.m[i] = x + i >= rectangle_.x0 && x + i < rectangle_.x1 ? -1 : 0;
+    for (int i = 0; i < kBlockSize; i++)
+        inside.m[i] = x + i >= rectangle_.x0 && x + i < rectangle_.x1 ? -1 : 0;
     return inside;
 }
 
@@ -244,8 +275,8 @@ void TileRasterizer::drawGroup(std::span<const Piece> pieces) {
     }
 }
 
-// Which of the row's samples more pieces of the polygon's sign cover than reversed ones, and the first covering
-// piece of the polygon's sign.
+// Which of the row's samples more pieces of the polygon's sign cover than reversed ones, and the first
+// covering piece of the polygon's sign.
 BlockMask TileRasterizer::windingRow(std::span<const Piece> pieces, const BlockRow& row,
                                      std::span<int> firstCovering) const {
     BlockMask covered(false);
@@ -266,7 +297,8 @@ BlockMask TileRasterizer::windingRow(std::span<const Piece> pieces, const BlockR
     return covered;
 }
 
-// The stored depths of the row (rules 5 to 7). Edge values are exact integers below 2^53, so doubles hold them.
+// The stored depths of the row (rules 5 to 7). Edge values are exact integers below 2^53, so doubles hold
+// them.
 template <class Real>
 RowInt TileRasterizer::rowDepth(const Piece& piece, const BlockRow& row) const {
     using Row = Lanes<Real, kBlockSize>;
@@ -282,7 +314,8 @@ RowInt TileRasterizer::rowDepth(const Piece& piece, const BlockRow& row) const {
     }
     Kernels kernels;
     using vec3 = typename Kernels::vec3;
-    Row depth = kernels.interpolateDepth(vec3(e[0], e[1], e[2]), Row(piece.reciprocalArea), vec3(z[0], z[1], z[2]));
+    Row depth =
+        kernels.interpolateDepth(vec3(e[0], e[1], e[2]), Row(piece.reciprocalArea), vec3(z[0], z[1], z[2]));
     if (piece.bias != 0) depth = depth + Row(piece.bias);
     return storedDepth(format_.depth, format_.depthRounding, depth);
 }

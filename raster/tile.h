@@ -26,10 +26,10 @@ class TileRasterizer {
   public:
     explicit TileRasterizer(int tileSize) : tileSize_(tileSize) {}
 
-    // Draws the records whose indices are listed, in that order, with the state of their draw (`draws` start at
-    // the target's draw number firstDraw). A record with a groupSize stands for its whole group.
-    void run(RenderTarget& target, const TileRectangle& rectangle, std::span<const Draw> draws, uint32_t firstDraw,
-             std::span<const uint32_t> recordIndices);
+    // Draws the records whose indices are listed, in that order, with the state of their draw (`draws` start
+    // at the target's draw number firstDraw). A record with a groupSize stands for its whole group.
+    void run(RenderTarget& target, const TileRectangle& rectangle, std::span<const Draw> draws,
+             uint32_t firstDraw, std::span<const uint32_t> recordIndices);
 
   private:
     struct Piece;
@@ -41,7 +41,8 @@ class TileRasterizer {
     void drawPiece(const Piece& piece);
     void drawBlock(const Piece& piece, int blockX, int blockY, int sample);
     void drawGroup(std::span<const Piece> pieces);
-    BlockMask windingRow(std::span<const Piece> pieces, const BlockRow& row, std::span<int> firstCovering) const;
+    BlockMask windingRow(std::span<const Piece> pieces, const BlockRow& row,
+                         std::span<int> firstCovering) const;
     BlockMask insideRectangle(int x, int y) const;
     template <class Real>
     Lanes<int32_t, kBlockSize> rowDepth(const Piece& piece, const BlockRow& row) const;

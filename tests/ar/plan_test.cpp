@@ -72,9 +72,17 @@ std::set<std::string> running(const Plan& plan) {
 
 TEST_CASE("OnlyTheNeededPassesRun") {
     CHECK(running(makePlan(bareScene(), {})) == std::set<std::string>{"geometry", "visibility", "beauty"});
-    const std::set<std::string> all{"geometry",         "visibility",  "ambient", "diffuse", "specular",
-                                    "mirror",           "background",  "beauty",  "cube map of ball",
-                                    "environment image", "environment cube map"};
+    const std::set<std::string> all{"geometry",
+                                    "visibility",
+                                    "ambient",
+                                    "diffuse",
+                                    "specular",
+                                    "mirror",
+                                    "background",
+                                    "beauty",
+                                    "cube map of ball",
+                                    "environment image",
+                                    "environment cube map"};
     CHECK(running(makePlan(fullScene(), {})) == all);
 }
 
@@ -98,12 +106,15 @@ TEST_CASE("EachEffectsPassesVanishWhenNothingNeedsThem") {
         {"ambient", [](Scene& s) { s.ambient = glm::dvec3(0); }, {"ambient"}},
         {"gloss", [](Scene& s) { s.meshes.erase(s.meshes.begin() + 1); }, {"specular"}},
         {"ball", [](Scene& s) { s.meshes.erase(s.meshes.begin() + 2); }, {"cube map of ball"}},
-        {"mirrors", [](Scene& s) { s.meshes.resize(2); }, {"cube map of ball", "mirror", "environment cube map"}},
+        {"mirrors",
+         [](Scene& s) { s.meshes.resize(2); },
+         {"cube map of ball", "mirror", "environment cube map"}},
         {"plate", [](Scene& s) { s.meshes.resize(3); }, {"environment cube map"}},
         {"environment",
          [](Scene& s) { s.environment.kind = EnvironmentKind::none; },
          {"environment image", "environment cube map", "background"}},
-        {"beauty", [](Scene& s) { s.output.images = {"diffuse"}; },
+        {"beauty",
+         [](Scene& s) { s.output.images = {"diffuse"}; },
          {"ambient", "specular", "mirror", "background", "beauty", "cube map of ball", "environment image",
           "environment cube map"}},
     };

@@ -25,7 +25,9 @@ RenderOptions withRaster(int threads, int tileSize) {
     return options;
 }
 
-Frame frameOf(const Scene& scene, const RenderOptions& options = {}) { return renderScene(scene, options).frame; }
+Frame frameOf(const Scene& scene, const RenderOptions& options = {}) {
+    return renderScene(scene, options).frame;
+}
 
 }  // namespace
 
@@ -33,7 +35,8 @@ TEST_CASE("ThreadsAndTilesChangeNoBitOfAFrame") {
     for (const char* file : {"scenes/minimal.toml", "scenes/stress.toml"}) {
         const Scene scene = loadScene(file);
         const Frame reference = frameOf(scene, withRaster(1, 64));
-        for (const auto& [threads, tile] : {std::pair(2, 64), std::pair(7, 32), std::pair(2, 16), std::pair(1, 256)})
+        for (const auto& [threads, tile] :
+             {std::pair(2, 64), std::pair(7, 32), std::pair(2, 16), std::pair(1, 256)})
             CHECK(sameBits(frameOf(scene, withRaster(threads, tile)), reference));
     }
 }
@@ -65,7 +68,8 @@ TEST_CASE("AskingForMoreOutputsChangesNoBitOfTheOthers") {
     const Frame many = frameOf(scene);
     for (const Channel& channel : alone.channels) {
         REQUIRE(many.find(channel.name));
-        CHECK(std::get<Image<float>>(many.find(channel.name)->values) == std::get<Image<float>>(channel.values));
+        CHECK(std::get<Image<float>>(many.find(channel.name)->values) ==
+              std::get<Image<float>>(channel.values));
     }
 }
 
@@ -74,8 +78,8 @@ TEST_CASE("OutputsNameTheirChannelsForTheUsualViewers") {
     RenderOptions options;
     for (const std::string_view name : kOutputNames) options.request.outputs.emplace_back(name);
     const Frame frame = frameOf(scene, options);
-    for (const char* name : {"R", "G", "B", "Z", "distance", "N.X", "N.Y", "N.Z", "id.object", "id.triangle", "coverage",
-                             "diffuse.R", "specular.G", "mirror.B", "background.R", "ambient.G"})
+    for (const char* name : {"R", "G", "B", "Z", "distance", "N.X", "N.Y", "N.Z", "id.object", "id.triangle",
+                             "coverage", "diffuse.R", "specular.G", "mirror.B", "background.R", "ambient.G"})
         CHECK_MESSAGE(frame.find(name) != nullptr, name);
     CHECK(frame.metadata.at("etalon.profile") == "f32");
     CHECK(frame.metadata.at("etalon.scene") == "minimal.toml");

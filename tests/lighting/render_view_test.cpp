@@ -60,9 +60,9 @@ const char* const kAllProfiles[] = {"f32",       "f64",       "truth",     "d3d1
 
 }  // namespace
 
-// From inside a box, each face of the cube map shows its own wall: the face table end to end. The distance of a
-// texel is that of the wall divided by the cosine. Snapping moves a vertex by up to half a subpixel, 2^-9 texels,
-// of 2 / size each on the face's plane at distance 1, in s and in t.
+// From inside a box, each face of the cube map shows its own wall: the face table end to end. The distance of
+// a texel is that of the wall divided by the cosine. Snapping moves a vertex by up to half a subpixel, 2^-9
+// texels, of 2 / size each on the face's plane at distance 1, in s and in t.
 TEST_CASE("CubeMapOfABoxShowsItsWallsAtTheirDistances") {
     constexpr double kRelativeBound = 2 * 0x1p-9 * 2 / 33;
     const SurfaceScene scene = test::box(2, 3, 4);
@@ -78,7 +78,8 @@ TEST_CASE("CubeMapOfABoxShowsItsWallsAtTheirDistances") {
     for (size_t face = 0; face < 6; face++) {
         const float centre = cube.distance.faces[face].at(16, 16);
         CHECK(centre == doctest::Approx(wall_m[face]).epsilon(kRelativeBound));
-        CHECK(cube.radiance.faces[face].at(16, 16) == static_cast<float>(0.1 * static_cast<double>(face + 1)));
+        CHECK(cube.radiance.faces[face].at(16, 16) ==
+              static_cast<float>(0.1 * static_cast<double>(face + 1)));
         for (int y = 0; y < request.size; y++) {
             for (int x = 0; x < request.size; x++) {
                 // The texel's direction, by its major axis and the distance to the nearest wall along it.
@@ -89,8 +90,11 @@ TEST_CASE("CubeMapOfABoxShowsItsWallsAtTheirDistances") {
                 double nearest = INFINITY;
                 const double half[3] = {2, 3, 4};
                 for (int k = 0; k < 3; k++)
-                    if (d[k] != 0) nearest = std::min(nearest, ((d[k] > 0 ? half[k] : -half[k]) - request.centre[k]) / d[k]);
-                CHECK(cube.distance.faces[face].at(x, y) == doctest::Approx(nearest * length).epsilon(kRelativeBound));
+                    if (d[k] != 0)
+                        nearest =
+                            std::min(nearest, ((d[k] > 0 ? half[k] : -half[k]) - request.centre[k]) / d[k]);
+                CHECK(cube.distance.faces[face].at(x, y) ==
+                      doctest::Approx(nearest * length).epsilon(kRelativeBound));
             }
         }
     }
@@ -114,8 +118,8 @@ TEST_CASE("CubeMapLeavesOutTheExcludedObjectAndSeesInfinityBehindIt") {
     CHECK(cube.radiance.faces[minusZ].at(4, 4) == 0);
 }
 
-// A white Lambertian plate that faces a light of irradiance pi reflects radiance 1: in every profile within two
-// units of its format (1 / pi and the product are rounded).
+// A white Lambertian plate that faces a light of irradiance pi reflects radiance 1: in every profile within
+// two units of its format (1 / pi and the product are rounded).
 TEST_CASE("WhitePlateFacingIrradiancePiReflectsOne") {
     SurfaceScene scene;
     test::addObject(scene, test::rectangle({0, 0, -2}, {3, 0, 0}, {0, 3, 0}), test::lambertian(1));
@@ -126,7 +130,8 @@ TEST_CASE("WhitePlateFacingIrradiancePiReflectsOne") {
                             : std::string(profile) == "nv40-fp16" ? 0x1p-10
                             : std::string(profile) == "r300-fp24" ? 0x1p-16
                                                                   : 0x1p-23;
-        const auto result = render(scene, squareView(8), requestOf({ShadeOutput::beauty, ShadeOutput::diffuse}), profile);
+        const auto result =
+            render(scene, squareView(8), requestOf({ShadeOutput::beauty, ShadeOutput::diffuse}), profile);
         for (const float value : result.images[ShadeOutput::beauty].values())
             CHECK_MESSAGE(std::fabs(value - 1) <= 2 * unit, profile);
         CHECK(result.images[ShadeOutput::beauty] == result.images[ShadeOutput::diffuse]);
@@ -195,7 +200,8 @@ TEST_CASE("ShadingDoesNotDependOnTilesThreadsOrSamplesOfAFlatImage") {
     for (int threads : {1, 2, 7}) {
         for (int tile : {16, 32, 64, 256}) {
             const auto other = render(scene, squareView(150), request, "f32", 4, {threads, tile});
-            for (size_t o = 0; o < kShadeOutputs; o++) CHECK(other.images.images[o] == reference.images.images[o]);
+            for (size_t o = 0; o < kShadeOutputs; o++)
+                CHECK(other.images.images[o] == reference.images.images[o]);
         }
     }
 }

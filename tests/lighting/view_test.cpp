@@ -31,8 +31,10 @@ void checkThatRaysProjectToTheirPixels(const View& view, RandomNumbers& random, 
         const glm::dvec3 p = pointOnRay(view, x, y, depth_m);
         const double w = row(view.worldToClip[3], p);
         CHECK(w == doctest::Approx(depth_m).epsilon(kTolerance));
-        CHECK((row(view.worldToClip[0], p) / w + 1) / 2 * view.width == doctest::Approx(x).epsilon(kTolerance));
-        CHECK((1 - row(view.worldToClip[1], p) / w) / 2 * view.height == doctest::Approx(y).epsilon(kTolerance));
+        CHECK((row(view.worldToClip[0], p) / w + 1) / 2 * view.width ==
+              doctest::Approx(x).epsilon(kTolerance));
+        CHECK((1 - row(view.worldToClip[1], p) / w) / 2 * view.height ==
+              doctest::Approx(y).epsilon(kTolerance));
         const double z = far_m * (depth_m - near_m) / ((far_m - near_m) * depth_m);
         CHECK(row(view.worldToClip[2], p) / w == doctest::Approx(z).epsilon(kTolerance));
     }
@@ -68,8 +70,7 @@ TEST_CASE("CubeFaceRaysAreTheDirectionsOfTheFaceTable") {
             const double s = random.uniform(0, 1), t = random.uniform(0, 1);
             const glm::dvec3 p = pointOnRay(view, s * 64, t * 64, 1);
             const auto direction = kernel.cubeDirection(face, s, t);
-            for (int k = 0; k < 3; k++)
-                CHECK(std::fabs(p[k] - view.eye[k] - direction[k]) < kTolerance);
+            for (int k = 0; k < 3; k++) CHECK(std::fabs(p[k] - view.eye[k] - direction[k]) < kTolerance);
         }
     }
 }

@@ -29,6 +29,7 @@ TEST_CASE("LaneGroupsCoverEveryItemOnceAndStoreNothingBehindTheTail") {
         forEachLaneGroup<4>(count, [&](size_t first, int active) {
             storeActive(loadActive<float, 4>(&in[first], active) + Lanes<float, 4>(1.0), &out[first], active);
         });
-        for (size_t i = 0; i < out.size(); i++) CHECK(out[i] == (i < count ? static_cast<float>(i + 1) : -1.f));
+        for (size_t i = 0; i < out.size(); i++)
+            CHECK(out[i] == (i < count ? static_cast<float>(i + 1) : -1.f));
     }
 }

@@ -20,7 +20,10 @@ TEST_CASE("EveryItemRunsOnceWhateverTheThreads") {
 }
 
 TEST_CASE("AnExceptionOfAnItemReachesTheCaller") {
-    CHECK_THROWS_AS(parallelFor(100, 2, [](size_t i) { if (i == 57) throw std::runtime_error("57"); }),
+    CHECK_THROWS_AS(parallelFor(100, 2,
+                                [](size_t i) {
+                                    if (i == 57) throw std::runtime_error("57");
+                                }),
                     std::runtime_error);
 }
 
@@ -32,7 +35,8 @@ TEST_CASE("AThreadThatFlushesSubnormalsIsRefused") {
         CHECK_THROWS_AS(parallelFor(1, 1, [](size_t) {}), PreconditionError);
     }
     CHECK(fpEnvironmentIsDefault());
-    // A worker thread whose control word an item has changed is refused at its next item, or by the next call.
+    // A worker thread whose control word an item has changed is refused at its next item, or by the next
+    // call.
     volatile float tiny = 1e-38f;
     {
         const FlushToZeroScope flush;

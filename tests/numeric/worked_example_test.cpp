@@ -52,6 +52,7 @@ TEST_CASE("TheWorkedExampleOfTheKernelPageRunsOverEveryNumberType") {
         const double exact = truth.luminance({Truth(red[i]), Truth(green[i]), Truth(blue[i])}).toDouble();
         CHECK(std::fabs(out[i] - exact) <= kBound);
         using Half = Rounded<kFp16, double>;
-        CHECK(std::fabs(half.luminance({Half(red[i]), Half(green[i]), Half(blue[i])}).v - exact) <= 5 * 0x1p-11);
+        CHECK(std::fabs(half.luminance({Half(red[i]), Half(green[i]), Half(blue[i])}).v - exact) <=
+              5 * 0x1p-11);
     }
 }

@@ -18,7 +18,8 @@ typename RasterKernels<T>::vec3 numbers(double a, double b, double c) {
     return {T(a), T(b), T(c)};
 }
 
-// Random weights as the rasterizer makes them: e in [0, 2) with a sum in [1, 2), q with the largest in [1, 2).
+// Random weights as the rasterizer makes them: e in [0, 2) with a sum in [1, 2), q with the largest in [1,
+// 2).
 struct RandomWeights {
     double e[3], q[3];
     explicit RandomWeights(RandomNumbers& random, double wRatio) {
@@ -44,8 +45,8 @@ TEST_CASE_TEMPLATE("ConstantAttributeSurvivesAWRatioOfAMillion", T, float, doubl
     }
 }
 
-TEST_CASE_TEMPLATE("AttributesStayInsideTheHull", T, float, double, Rounded<kFp16, double>, Rounded<kBf16, double>,
-                   Rounded<kFp24R300, double>) {
+TEST_CASE_TEMPLATE("AttributesStayInsideTheHull", T, float, double, Rounded<kFp16, double>,
+                   Rounded<kBf16, double>, Rounded<kFp24R300, double>) {
     RasterKernels<T> kernels;
     RandomNumbers random(2);
     for (int i = 0; i < 20000; i++) {
