@@ -21,13 +21,13 @@ ExitCode runAccept(const AcceptOptions& options, const GoldenSupport& support) {
     if (accepted.empty()) {
         fmt::print(stderr, "etalon: {}: nothing to check: no case matches \"{}\"\n", options.manifest,
                    options.pattern);
-        return ExitCode::NothingToCheck;
+        return ExitCode::nothingToCheck;
     }
     std::string text;
     for (const GoldenAcceptance& acceptance : accepted)
         text += fmt::format("{}: {}\n", acceptance.changed ? "accepted" : "unchanged", acceptance.name);
     printOut(text);
-    return ExitCode::Done;
+    return ExitCode::done;
 }
 
 }  // namespace

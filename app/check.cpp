@@ -41,8 +41,8 @@ ExitCode runCheck(const CheckOptions& options, const GoldenSupport& support) {
     std::string text;
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
     for (const GoldenResult& result : results) {
-        same += result.verdict == GoldenVerdict::Same ? 1 : 0;
-        failed = failed || result.verdict == GoldenVerdict::Failed;
+        same += result.verdict == GoldenVerdict::same ? 1 : 0;
+        failed = failed || result.verdict == GoldenVerdict::failed;
         text += resultText(manifest, result);
         list.push_back(resultJson(result));
     }
@@ -52,10 +52,10 @@ ExitCode runCheck(const CheckOptions& options, const GoldenSupport& support) {
     if (results.empty()) {
         fmt::print(stderr, "etalon: {}: nothing to check: no case matches \"{}\"\n", options.manifest,
                    options.pattern);
-        return ExitCode::NothingToCheck;
+        return ExitCode::nothingToCheck;
     }
-    if (failed) return ExitCode::BadInput;
-    return same == results.size() ? ExitCode::Done : ExitCode::Difference;
+    if (failed) return ExitCode::badInput;
+    return same == results.size() ? ExitCode::done : ExitCode::difference;
 }
 
 }  // namespace

@@ -38,8 +38,8 @@ ExitCode runCompare(const CompareOptions& options) {
     if (wantsError && comparison.channels.empty())
         fmt::print(stderr, "etalon: {}: not written: the images share no channel of one size and type\n",
                    options.errorImage);
-    return (options.bits ? comparison.identical() : comparison.equal()) ? ExitCode::Done
-                                                                        : ExitCode::Difference;
+    return (options.bits ? comparison.identical() : comparison.equal()) ? ExitCode::done
+                                                                        : ExitCode::difference;
 }
 
 }  // namespace

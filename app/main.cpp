@@ -17,7 +17,7 @@ etalon::Frame renderGolden(const etalon::GoldenManifest& manifest, const etalon:
 
 int main(int argc, char** argv) {
     CLI::App app;
-    etalon::ExitCode exitCode = etalon::ExitCode::Done;
+    etalon::ExitCode exitCode = etalon::ExitCode::done;
     const etalon::GoldenSupport golden{renderGolden, std::to_string(etalon::kRulesVersion)};
     etalon::configureCommand(app);
     etalon::addRender(app, exitCode);

@@ -19,7 +19,7 @@ ExitCode runPlan(const PlanVerb& verb) {
     options.request.png = verb.png;
     const Plan plan = planScene(loadScene(verb.scene.scene), options);
     printOut(verb.json ? planJson(plan) : verb.dot ? planDot(plan) : planText(plan));
-    return ExitCode::Done;
+    return ExitCode::done;
 }
 
 }  // namespace

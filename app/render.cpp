@@ -47,13 +47,13 @@ ExitCode runRender(const RenderVerb& verb) {
         options.request.png = options.request.png || isPng(file);
         files.push_back(std::make_unique<AtomicFile>(file));
     }
-    const uint64_t memory_bytes = makePlan(scene, options.request).memory_bytes;
-    if (memory_bytes >= kAnnouncedMemory_bytes)
-        fmt::print(stderr, "etalon: needs up to {:.1f} GiB for targets and images\n",
-                   static_cast<double>(memory_bytes) / static_cast<double>(kAnnouncedMemory_bytes));
-
     ProgressLine progress;
     options.progress = [&](const std::string& pass) { progress.show(pass); };
+    options.announceMemory = [](uint64_t bytes) {
+        if (bytes >= kAnnouncedMemory_bytes)
+            fmt::print(stderr, "etalon: needs up to {:.1f} GiB for targets and images\n",
+                       static_cast<double>(bytes) / static_cast<double>(kAnnouncedMemory_bytes));
+    };
     const auto start = std::chrono::steady_clock::now();
     const RenderResult result = renderScene(scene, options);
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -90,7 +90,7 @@ ExitCode runRender(const RenderVerb& verb) {
                                 seconds);
         printOut(text);
     }
-    return ExitCode::Done;
+    return ExitCode::done;
 }
 
 }  // namespace

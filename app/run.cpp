@@ -15,7 +15,7 @@ ExitCode reportError(std::string text) {
     for (char& character : text)
         if (character == '\n') character = ' ';
     fmt::print(stderr, "etalon: {}\n", text);
-    return ExitCode::BadInput;
+    return ExitCode::badInput;
 }
 
 }  // namespace
@@ -39,7 +39,7 @@ ExitCode runCommand(CLI::App& app, const ExitCode& exitCode, int argc, const cha
     } catch (const CLI::Success& request) {
         // --help and --version.
         app.exit(request);
-        return std::fflush(stdout) == 0 ? ExitCode::Done : reportError("cannot write to standard output");
+        return std::fflush(stdout) == 0 ? ExitCode::done : reportError("cannot write to standard output");
     } catch (const CLI::ParseError& error) {
         return reportError(fmt::format("{} (see etalon --help)", error.what()));
     } catch (const InputError& error) {

@@ -10,10 +10,10 @@ namespace etalon {
 
 // The exit codes of the command.
 enum class ExitCode : int {
-    Done = 0,
-    Difference = 1,
-    BadInput = 2,  // of a file or of the command line
-    NothingToCheck = 3,
+    done = 0,
+    difference = 1,
+    badInput = 2,  // of a file or of the command line
+    nothingToCheck = 3,
 };
 
 // How check and accept render their cases.
@@ -33,7 +33,7 @@ void addAccept(CLI::App& app, ExitCode& exitCode, const GoldenSupport& support);
 // Settings of the command itself: name, --version, exactly one verb, unknown options are errors.
 void configureCommand(CLI::App& app);
 
-// Parses and runs. Whatever goes wrong is one line on standard error, "etalon: reason", and BadInput.
+// Parses and runs. Whatever goes wrong is one line on standard error, "etalon: reason", and badInput.
 ExitCode runCommand(CLI::App& app, const ExitCode& exitCode, int argc, const char* const* argv);
 
 // Writes to standard output; InputError if that fails (a full disk behind a redirection).

@@ -17,15 +17,15 @@ uint64_t distance(uint32_t a, uint32_t b) { return a < b ? b - a : a - b; }
 double magnitude(double value) { return value < 0 ? -value : value; }
 
 // What one pair of samples is; the order is that of the report.
-enum class Relation { Same, SignedZero, NanPayload, NanMismatch, InfinityMismatch, Finite };
+enum class Relation { same, signedZero, nanPayload, nanMismatch, infinityMismatch, finite };
 
 template <class T>
 Relation relate(T a, T b) {
-    if (std::bit_cast<uint32_t>(a) == std::bit_cast<uint32_t>(b)) return Relation::Same;
-    if (isNan(a) && isNan(b)) return Relation::NanPayload;
-    if (isNan(a) || isNan(b)) return Relation::NanMismatch;
-    if (!isFinite(a) || !isFinite(b)) return Relation::InfinityMismatch;
-    return a == b ? Relation::SignedZero : Relation::Finite;
+    if (std::bit_cast<uint32_t>(a) == std::bit_cast<uint32_t>(b)) return Relation::same;
+    if (isNan(a) && isNan(b)) return Relation::nanPayload;
+    if (isNan(a) || isNan(b)) return Relation::nanMismatch;
+    if (!isFinite(a) || !isFinite(b)) return Relation::infinityMismatch;
+    return a == b ? Relation::signedZero : Relation::finite;
 }
 
 // The greater distance first, then the reading order.
@@ -82,17 +82,17 @@ ChannelComparison compareChannel(const std::string& name, const Image<T>& a, con
             const T va = a.at(x, y), vb = b.at(x, y);
             const Relation relation = relate(va, vb);
             const double da = static_cast<double>(va), db = static_cast<double>(vb);
-            if (relation == Relation::NanMismatch || relation == Relation::InfinityMismatch) {
-                ++(relation == Relation::NanMismatch ? result.nanMismatches : result.infinityMismatches);
+            if (relation == Relation::nanMismatch || relation == Relation::infinityMismatch) {
+                ++(relation == Relation::nanMismatch ? result.nanMismatches : result.infinityMismatches);
                 ++result.differing;
                 worst.add({x, y, da, db, kIncomparableUlp});
                 continue;
             }
-            if (relation == Relation::SignedZero) ++result.signedZeros;
-            if (relation == Relation::NanPayload) ++result.nanPayloads;
+            if (relation == Relation::signedZero) ++result.signedZeros;
+            if (relation == Relation::nanPayload) ++result.nanPayloads;
             if (!isFinite(va)) continue;
             ++result.finite;
-            if (relation != Relation::Finite) {
+            if (relation != Relation::finite) {
                 ++result.ulpHistogram[0];
                 continue;
             }
@@ -130,9 +130,9 @@ Image<float> errorOf(const Image<T>& a, const Image<T>& b) {
     for (size_t i = 0; i < a.values().size(); ++i) {
         const T va = a.values()[i], vb = b.values()[i];
         const Relation relation = relate(va, vb);
-        if (relation == Relation::NanMismatch || relation == Relation::InfinityMismatch) {
+        if (relation == Relation::nanMismatch || relation == Relation::infinityMismatch) {
             error.values()[i] = std::numeric_limits<float>::infinity();
-        } else if (relation == Relation::Finite) {
+        } else if (relation == Relation::finite) {
             const double absolute = magnitude(static_cast<double>(vb) - static_cast<double>(va));
             const double largest = static_cast<double>(std::numeric_limits<float>::max());
             error.values()[i] = static_cast<float>(std::min(absolute, largest));

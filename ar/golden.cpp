@@ -84,24 +84,24 @@ std::string imageDefect(const GoldenManifest& manifest, const GoldenCase& c, std
 
 GoldenResult checkCase(const GoldenManifest& manifest, const GoldenCase& c, const std::string& rulesVersion,
                        const GoldenRenderer& render) {
-    if (!c.accepted) return {c.name, GoldenVerdict::Missing, "nothing was accepted yet", {}};
+    if (!c.accepted) return {c.name, GoldenVerdict::missing, "nothing was accepted yet", {}};
     std::optional<Frame> image;
     if (const std::string defect = imageDefect(manifest, c, image); !defect.empty())
-        return {c.name, GoldenVerdict::Missing, defect, {}};
+        return {c.name, GoldenVerdict::missing, defect, {}};
     Frame frame;
     try {
         const std::string difference = inputDifference(c.accepted->inputs, hashInputs(manifest, c));
-        if (!difference.empty()) return {c.name, GoldenVerdict::InputDiffers, difference, {}};
+        if (!difference.empty()) return {c.name, GoldenVerdict::inputDiffers, difference, {}};
         frame = render(manifest, c);
     } catch (const InputError& error) {
-        return {c.name, GoldenVerdict::Failed, error.what(), {}};
+        return {c.name, GoldenVerdict::failed, error.what(), {}};
     }
     std::string difference = groupDifference(c.accepted->groups, hashGroups(frame));
-    if (difference.empty()) return {c.name, GoldenVerdict::Same, {}, {}};
+    if (difference.empty()) return {c.name, GoldenVerdict::same, {}, {}};
     if (c.accepted->rulesVersion != rulesVersion)
         difference += fmt::format("; accepted under rules {}, these are rules {}", c.accepted->rulesVersion,
                                   rulesVersion);
-    return {c.name, GoldenVerdict::Different, difference, compareFrames(*image, frame)};
+    return {c.name, GoldenVerdict::different, difference, compareFrames(*image, frame)};
 }
 
 }  // namespace
@@ -119,15 +119,15 @@ std::vector<GoldenGroup> hashGroups(const Frame& frame) {
 
 const char* verdictName(GoldenVerdict verdict) {
     switch (verdict) {
-        case GoldenVerdict::Same:
+        case GoldenVerdict::same:
             return "same";
-        case GoldenVerdict::Different:
+        case GoldenVerdict::different:
             return "different";
-        case GoldenVerdict::Missing:
+        case GoldenVerdict::missing:
             return "missing";
-        case GoldenVerdict::InputDiffers:
+        case GoldenVerdict::inputDiffers:
             return "input differs";
-        case GoldenVerdict::Failed:
+        case GoldenVerdict::failed:
             return "failed";
     }
     return "";

@@ -71,17 +71,17 @@ std::vector<GoldenGroup> hashGroups(const Frame& frame);
 using GoldenRenderer = std::function<Frame(const GoldenManifest&, const GoldenCase&)>;
 
 enum class GoldenVerdict {
-    Same,          // every bit is as accepted
-    Different,     // the render differs
-    Missing,       // nothing was accepted, or the accepted image is missing or is not what the manifest says
-    InputDiffers,  // an input does not decode to the pixels it had; not rendered
-    Failed,        // the scene or an input could not be read; not rendered
+    same,          // every bit is as accepted
+    different,     // the render differs
+    missing,       // nothing was accepted, or the accepted image is missing or is not what the manifest says
+    inputDiffers,  // an input does not decode to the pixels it had; not rendered
+    failed,        // the scene or an input could not be read; not rendered
 };
 const char* verdictName(GoldenVerdict verdict);
 
 struct GoldenResult {
     std::string name;
-    GoldenVerdict verdict = GoldenVerdict::Failed;
+    GoldenVerdict verdict = GoldenVerdict::failed;
     std::string message;                   // one line; empty for Same
     std::optional<Comparison> comparison;  // a: the accepted image, b: the render; for Different
 };

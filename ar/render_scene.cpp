@@ -61,7 +61,10 @@ class SceneRenderer {
 
     void requireMemory() const {
         const uint64_t needed = result_.plan.memory_bytes, present = machineMemory_bytes();
-        if (needed <= present) return;
+        if (needed <= present) {
+            if (options_.announceMemory) options_.announceMemory(needed);
+            return;
+        }
         throw InputError(fmt::format(
             "{}: {}x{} pixels with {} samples need {:.1f} GiB, this machine has {:.1f} GiB",
             where(scene_, scene_.camera.line), scene_.camera.width, scene_.camera.height,

@@ -18,6 +18,7 @@ struct RenderOptions {
     RasterOptions raster;  // threads and tile size; change no bit
     bool strict = false;   // questionable input (negative or NaN radiance) is an error
     std::function<void(const std::string& pass)> progress;
+    std::function<void(uint64_t bytes)> announceMemory;  // called before memory of that size is taken
 };
 
 struct RenderResult {

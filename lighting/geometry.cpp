@@ -12,7 +12,6 @@ namespace {
 template <class T>
 struct VertexKernels {
 #include "numeric/kernel_scope.inc"
-//
 #include "raster/kernels/transform.glsl"
 };
 

@@ -39,9 +39,7 @@ template <class T>
 struct LatLongKernel {
 #include "numeric/kernel_scope.inc"
 #include "raster/texture_scope.inc"
-//
 #include "raster/kernels/sampler.glsl"
-//
 #include "lighting/kernels/latlong.glsl"
 #include "raster/kernels/cube_face.glsl"
 };
@@ -69,7 +67,7 @@ class LatLongGrid {
 
 // How cubeFromLatLong samples.
 struct CubeFromLatLong {
-    Filter filter = Filter::kBilinear;
+    Filter filter = Filter::bilinear;
     int fractionBits = kExactFraction;
     int samplesPerAxis = 1;  // per cube texel, on a regular grid; 1 .. kMaxSamplesPerAxis
 };
@@ -88,9 +86,8 @@ CubeMap<float> cubeFromLatLong(const Image<float>& latLong, int size, const Cube
     using vec3 = typename Kernel::vec3;
     constexpr int kWidth = NumberTraits<T>::lanes;
     const TextureView texture(latLong);
-    const auto sampling =
-        samplingOf<Kernel>({options.filter, Wrap::kRepeat, Wrap::kClamp, options.fractionBits},
-                           latLong.width(), latLong.height());
+    const auto sampling = samplingOf<Kernel>(
+        {options.filter, Wrap::repeat, Wrap::clamp, options.fractionBits}, latLong.width(), latLong.height());
     // The coordinate of part `part` of texel i, in double.
     auto coordinate = [&](int i, int part) {
         return (static_cast<double>(i) * parts + part + 0.5) / (static_cast<double>(size) * parts);

@@ -12,16 +12,12 @@ template <class T>
 struct ShadingKernels {
 #include "numeric/kernel_scope.inc"
 #include "raster/texture_scope.inc"
-//
 #include "numeric/kernels/vector.glsl"
-//
 #include "raster/kernels/interpolate.glsl"
 #include "raster/kernels/resolve.glsl"
 #include "raster/kernels/sampler.glsl"
 #include "raster/kernels/view_ray.glsl"
-//
 #include "raster/kernels/cube_face.glsl"
-//
 #include "lighting/kernels/blinn_phong.glsl"
 #include "lighting/kernels/checker.glsl"
 #include "lighting/kernels/lambert.glsl"

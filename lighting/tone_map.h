@@ -27,7 +27,6 @@ inline constexpr double kOperatorFloatError = 0x1p-21;
 template <class T>
 struct ToneMapKernel {
 #include "numeric/kernel_scope.inc"
-//
 #include "lighting/kernels/tone_map.glsl"
 };
 

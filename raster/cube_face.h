@@ -28,7 +28,7 @@
 namespace etalon {
 
 // Faces of a cube map in storage order.
-enum class CubeFace { kPlusX, kMinusX, kPlusY, kMinusY, kPlusZ, kMinusZ };
+enum class CubeFace { plusX, minusX, plusY, minusY, plusZ, minusZ };
 inline constexpr int kCubeFaces = 6;
 
 // Largest error of s and t in float, directions exact; the face is always right (comparisons do not round).
@@ -39,9 +39,7 @@ template <class T>
 struct CubeFaceKernel {
 #include "numeric/kernel_scope.inc"
 #include "raster/texture_scope.inc"
-//
 #include "raster/kernels/sampler.glsl"
-//
 #include "raster/kernels/cube_face.glsl"
 };
 

@@ -32,7 +32,7 @@ struct Profile {
     DepthRounding depthRounding = DepthRounding::exact;
     int subpixelBits = 8;
     int textureFractionBits = kExactFraction;
-    Filter textureFilter = Filter::kBilinear;  // of float textures
+    Filter textureFilter = Filter::bilinear;  // of float textures
 };
 
 // All profiles; the first is the default.

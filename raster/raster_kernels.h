@@ -8,7 +8,6 @@ namespace etalon {
 template <class T>
 struct RasterKernels {
 #include "numeric/kernel_scope.inc"
-//
 #include "raster/kernels/depth_unorm.glsl"
 #include "raster/kernels/interpolate.glsl"
 };

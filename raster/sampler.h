@@ -28,8 +28,8 @@
 
 namespace etalon {
 
-enum class Filter { kNearest = 0, kBilinear = 1 };
-enum class Wrap { kClamp = 0, kRepeat = 1, kMirror = 2 };
+enum class Filter { nearest = 0, bilinear = 1 };
+enum class Wrap { clamp = 0, repeat = 1, mirror = 2 };
 
 // Fractions as exact as the number type.
 inline constexpr int kExactFraction = -1;
@@ -37,8 +37,8 @@ inline constexpr int kExactFraction = -1;
 inline constexpr int kMaxFractionBits = 16;
 
 struct SamplerSettings {
-    Filter filter = Filter::kBilinear;
-    Wrap wrapX = Wrap::kClamp, wrapY = Wrap::kClamp;
+    Filter filter = Filter::bilinear;
+    Wrap wrapX = Wrap::clamp, wrapY = Wrap::clamp;
     int fractionBits = kExactFraction;  // or 0 .. kMaxFractionBits
 };
 
@@ -78,7 +78,6 @@ template <class T>
 struct SamplerKernel {
 #include "numeric/kernel_scope.inc"
 #include "raster/texture_scope.inc"
-//
 #include "raster/kernels/sampler.glsl"
 };
 

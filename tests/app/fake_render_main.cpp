@@ -19,7 +19,7 @@ etalon::Frame renderNumber(const etalon::GoldenManifest& manifest, const etalon:
 
 int main(int argc, char** argv) {
     CLI::App app;
-    etalon::ExitCode exitCode = etalon::ExitCode::Done;
+    etalon::ExitCode exitCode = etalon::ExitCode::done;
     const etalon::GoldenSupport support{renderNumber, "1"};
     etalon::configureCommand(app);
     etalon::addCompare(app, exitCode);

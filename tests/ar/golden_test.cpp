@@ -138,7 +138,7 @@ TEST_CASE("NothingAcceptedIsAFailure") {
     const Fixture fixture;
     const auto results = fixture.check();
     REQUIRE(results.size() == 2);
-    for (const GoldenResult& result : results) CHECK(result.verdict == GoldenVerdict::Missing);
+    for (const GoldenResult& result : results) CHECK(result.verdict == GoldenVerdict::missing);
 }
 
 TEST_CASE("AcceptedRenderIsTheSame") {
@@ -146,7 +146,7 @@ TEST_CASE("AcceptedRenderIsTheSame") {
     const auto accepted = fixture.accept("*");
     REQUIRE(accepted.size() == 2);
     CHECK(accepted[0].changed);
-    for (const GoldenResult& result : fixture.check()) CHECK(result.verdict == GoldenVerdict::Same);
+    for (const GoldenResult& result : fixture.check()) CHECK(result.verdict == GoldenVerdict::same);
     // manifest, probe and two images.
     CHECK(fixture.folder.entries() == 4);
     const GoldenManifest manifest = readManifest(fixture.file);
@@ -170,7 +170,7 @@ TEST_CASE("DifferentRenderFailsIsExplainedAndWritesNothing") {
     fixture.red = 1.5f;
     const auto results = fixture.check("o*");
     REQUIRE(results.size() == 1);
-    CHECK(results[0].verdict == GoldenVerdict::Different);
+    CHECK(results[0].verdict == GoldenVerdict::different);
     CHECK(results[0].message.starts_with("RGBA differs"));
     CHECK(results[0].message.find("Z") == std::string::npos);
     REQUIRE(results[0].comparison);
@@ -183,7 +183,7 @@ TEST_CASE("SignOfZeroFailsTheCheck") {
     fixture.red = 0.0f;
     fixture.accept("one");
     fixture.red = -0.0f;
-    CHECK(fixture.check("one")[0].verdict == GoldenVerdict::Different);
+    CHECK(fixture.check("one")[0].verdict == GoldenVerdict::different);
 }
 
 TEST_CASE("AcceptChangesOnlyTheNamedCases") {
@@ -194,8 +194,8 @@ TEST_CASE("AcceptChangesOnlyTheNamedCases") {
     REQUIRE(accepted.size() == 1);
     CHECK(accepted[0].name == "two");
     const auto results = fixture.check();
-    CHECK(results[0].verdict == GoldenVerdict::Different);
-    CHECK(results[1].verdict == GoldenVerdict::Same);
+    CHECK(results[0].verdict == GoldenVerdict::different);
+    CHECK(results[1].verdict == GoldenVerdict::same);
     CHECK(readManifest(fixture.file).cases[0].accepted->reason == "first");
 }
 
@@ -218,10 +218,10 @@ TEST_CASE("MissingOrForeignImageIsAFailure") {
     fixture.accept("*");
     writeExr(renderOf(99), fixture.folder / "one.exr");
     std::filesystem::remove(fixture.folder / "two.exr");
-    for (const GoldenResult& result : fixture.check()) CHECK(result.verdict == GoldenVerdict::Missing);
+    for (const GoldenResult& result : fixture.check()) CHECK(result.verdict == GoldenVerdict::missing);
     // Accepting puts it right although the hashes have not changed.
     for (const GoldenAcceptance& acceptance : fixture.accept("*", "restored")) CHECK(acceptance.changed);
-    for (const GoldenResult& result : fixture.check()) CHECK(result.verdict == GoldenVerdict::Same);
+    for (const GoldenResult& result : fixture.check()) CHECK(result.verdict == GoldenVerdict::same);
 }
 
 TEST_CASE("DifferentInputIsNotBlamedOnTheRender") {
@@ -233,11 +233,11 @@ TEST_CASE("DifferentInputIsNotBlamedOnTheRender") {
         return renderOf(fixture.red);
     };
     const auto results = fixture.check();
-    CHECK(results[0].verdict == GoldenVerdict::Same);
-    CHECK(results[1].verdict == GoldenVerdict::InputDiffers);
+    CHECK(results[0].verdict == GoldenVerdict::same);
+    CHECK(results[1].verdict == GoldenVerdict::inputDiffers);
     CHECK(results[1].message.find("probe.exr") != std::string::npos);
     std::filesystem::remove(fixture.folder / "probe.exr");
-    CHECK(fixture.check()[1].verdict == GoldenVerdict::Failed);
+    CHECK(fixture.check()[1].verdict == GoldenVerdict::failed);
 }
 
 TEST_CASE("BadSceneFailsItsCaseOnly") {
@@ -248,9 +248,9 @@ TEST_CASE("BadSceneFailsItsCaseOnly") {
         return renderOf(1);
     };
     const auto results = fixture.check();
-    CHECK(results[0].verdict == GoldenVerdict::Failed);
+    CHECK(results[0].verdict == GoldenVerdict::failed);
     CHECK(results[0].message == (fixture.folder / "one.toml").string() + ":3: unknown key");
-    CHECK(results[1].verdict == GoldenVerdict::Same);
+    CHECK(results[1].verdict == GoldenVerdict::same);
 }
 
 TEST_CASE("MoreOrFewerOutputsFail") {
@@ -262,7 +262,7 @@ TEST_CASE("MoreOrFewerOutputsFail") {
         return frame;
     };
     const GoldenResult result = fixture.check("one")[0];
-    CHECK(result.verdict == GoldenVerdict::Different);
+    CHECK(result.verdict == GoldenVerdict::different);
     CHECK(result.message == "Z is not rendered any more; depth was not accepted");
 }
 

@@ -160,7 +160,7 @@ TEST_CASE_TEMPLATE("ConstantEnvironmentSamplesToExactlyItsConstant", R, float, d
                 return R(random.below(3) == 0 ? random.below(3) - 1.0 : random.uniform(-1.0, 1.0));
             };
             const glm::vec<3, R> d(coordinate(), coordinate(), coordinate());
-            for (Filter filter : {Filter::kNearest, Filter::kBilinear})
+            for (Filter filter : {Filter::nearest, Filter::bilinear})
                 REQUIRE(sampled(image, d, {filter}).x == R(0.7f));
         }
     }
@@ -202,8 +202,8 @@ TEST_CASE_TEMPLATE("EnvironmentInLanesGivesTheBitsOfScalars", L, Lanes<float, 4>
                                    : kind < 3 ? random.below(3) - 1.0
                                               : random.uniform(-1.0, 1.0));
             }
-        const SamplerSettings settings{i % 2 == 0 ? Filter::kNearest : Filter::kBilinear, Wrap::kClamp,
-                                       Wrap::kClamp, i % 3 == 0 ? 8 : kExactFraction};
+        const SamplerSettings settings{i % 2 == 0 ? Filter::nearest : Filter::bilinear, Wrap::clamp,
+                                       Wrap::clamp, i % 3 == 0 ? 8 : kExactFraction};
         const auto lanes =
             sampled(image, glm::vec<3, L>(L::load(d[0]), L::load(d[1]), L::load(d[2])), settings);
         for (int k = 0; k < L::size; k++) {
@@ -235,7 +235,7 @@ TEST_CASE("CubeFromLatLongShowsTheEnvironment") {
 TEST_CASE("CubeFromLatLongDependsNeitherOnThreadsNorOnLanes") {
     const Image<float> image = randomLatLong(24, 12, 9);
     for (int parts : {1, 3}) {
-        const CubeFromLatLong options{Filter::kBilinear, 8, parts};
+        const CubeFromLatLong options{Filter::bilinear, 8, parts};
         const CubeMap<float> scalar = cubeFromLatLong<float>(image, 7, options, 1);
         CHECK(cubeFromLatLong(image, 7, options, 1) == scalar);
         CHECK(cubeFromLatLong(image, 7, options, 3) == scalar);
@@ -247,7 +247,7 @@ TEST_CASE("CubeFromLatLongDependsNeitherOnThreadsNorOnLanes") {
 TEST_CASE("SupersampledCubeTexelsAreMeansOfTheirParts") {
     const Image<float> image = randomLatLong(64, 32, 10);
     const CubeMap<float> fine = cubeFromLatLong<double>(image, 12),
-                         coarse = cubeFromLatLong<double>(image, 4, {Filter::kBilinear, kExactFraction, 3});
+                         coarse = cubeFromLatLong<double>(image, 4, {Filter::bilinear, kExactFraction, 3});
     for (size_t face = 0; face < kCubeFaces; face++)
         for (int y = 0; y < 4; y++)
             for (int x = 0; x < 4; x++) {

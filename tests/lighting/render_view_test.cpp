@@ -191,7 +191,32 @@ TEST_CASE("EachVisiblePixelIsShadedOnce") {
     CHECK(four.statistics.surfaceFragments < size * size * 3 / 2);
 }
 
-TEST_CASE("ShadingDoesNotDependOnTilesThreadsOrSamplesOfAFlatImage") {
+// A pixel that an edge cuts is the mean of its samples: with a white plate on black, the covered fraction
+// exactly.
+TEST_CASE("ResolveIsTheMeanOfTheSamples") {
+    SurfaceScene scene;
+    test::addObject(scene, test::rectangle({0.3f, 0.1f, -1}, {0.5f, 0, 0}, {0.2f, 0.5f, 0}),
+                    test::lambertian(1));
+    scene.ambient = glm::dvec3(1);
+    for (int samples : {4, 16}) {
+        const View view = squareView(40);
+        const Profile& profile = *findProfile("f32");
+        const auto placed = placeMeshes(scene, profile.vertex, 1);
+        const VisibleScene visible = findVisible(scene, placed, view, profile, samples, {});
+        const auto result = render(scene, view, requestOf({ShadeOutput::beauty}), "f32", samples);
+        int partial = 0;
+        for (size_t p = 0; p < visible.target.id.pixelCount(); p++) {
+            int covered = 0;
+            for (int s = 0; s < samples; s++) covered += visible.target.id.plane(s)[p] != kNoTriangle ? 1 : 0;
+            partial += covered > 0 && covered < samples ? 1 : 0;
+            CHECK(result.images[ShadeOutput::beauty].plane(0)[p] ==
+                  static_cast<float>(covered) / static_cast<float>(samples));
+        }
+        CHECK(partial > 20);
+    }
+}
+
+TEST_CASE("ShadingDoesNotDependOnTilesOrThreads") {
     SurfaceScene scene = test::box(2, 3, 4);
     scene.lights.push_back({{0.6, 0.0, 0.8}, {1, 2, 3}});
     const ShadeRequest request =

@@ -222,7 +222,7 @@ TEST_CASE("ConstantCubeSamplesToExactlyItsConstant") {
                     return random.below(3) == 0 ? random.below(3) - 1.0 : random.uniform(-1.0, 1.0);
                 };
                 const glm::vec<3, float> d(coordinate(), coordinate(), coordinate());
-                for (Filter filter : {Filter::kNearest, Filter::kBilinear})
+                for (Filter filter : {Filter::nearest, Filter::bilinear})
                     REQUIRE(sampled(cube, d, {filter}).x == constant);
             }
         }
@@ -352,8 +352,8 @@ TEST_CASE_TEMPLATE("CubeSamplingInLanesGivesTheBitsOfScalars", L, Lanes<float, 4
         auto lanesOf = [&](size_t k) {
             return L::generate([&](int lane) { return d[static_cast<size_t>(lane)][k]; });
         };
-        const SamplerSettings settings{i % 2 == 0 ? Filter::kNearest : Filter::kBilinear, Wrap::kClamp,
-                                       Wrap::kClamp, i % 3 == 0 ? 8 : kExactFraction};
+        const SamplerSettings settings{i % 2 == 0 ? Filter::nearest : Filter::bilinear, Wrap::clamp,
+                                       Wrap::clamp, i % 3 == 0 ? 8 : kExactFraction};
         const auto lanes = sampled(cube, glm::vec<3, L>(lanesOf(0), lanesOf(1), lanesOf(2)), settings);
         for (int lane = 0; lane < L::size; lane++) {
             const auto& x = d[static_cast<size_t>(lane)];

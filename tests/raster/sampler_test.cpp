@@ -17,7 +17,7 @@ namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-constexpr Wrap kWraps[] = {Wrap::kClamp, Wrap::kRepeat, Wrap::kMirror};
+constexpr Wrap kWraps[] = {Wrap::clamp, Wrap::repeat, Wrap::mirror};
 constexpr int kFractionBits[] = {kExactFraction, 0, 4, 8, 16};
 
 Image<float> randomImage(int width, int height, int channels, uint64_t seed) {
@@ -54,7 +54,7 @@ TEST_CASE("ConstantImageSamplesToExactlyItsConstant") {
         for (auto [width, height] : {std::pair{1, 1}, {7, 3}, {64, 100}}) {
             Image<float> image(width, height);
             image.fill(constant);
-            for (Filter filter : {Filter::kNearest, Filter::kBilinear})
+            for (Filter filter : {Filter::nearest, Filter::bilinear})
                 for (Wrap wrap : kWraps)
                     for (int bits : kFractionBits)
                         for (size_t i = 0; i < coordinates.size(); i++)
@@ -70,10 +70,10 @@ TEST_CASE("TexelCentresSampleToExactlyTheirTexel") {
         for (int x = 0; x < width; x++) {
             const float u = (static_cast<float>(x) + 0.5f) / static_cast<float>(width);
             for (Wrap wrap : kWraps) {
-                REQUIRE(sampleAt(image, u, 0.5f, {Filter::kNearest, wrap, wrap, 8}) == image.at(x, 0));
-                REQUIRE(sampleAt(image, u, 0.5f, {Filter::kBilinear, wrap, wrap, 8}) == image.at(x, 0));
+                REQUIRE(sampleAt(image, u, 0.5f, {Filter::nearest, wrap, wrap, 8}) == image.at(x, 0));
+                REQUIRE(sampleAt(image, u, 0.5f, {Filter::bilinear, wrap, wrap, 8}) == image.at(x, 0));
                 if (isPowerOfTwo)
-                    REQUIRE(sampleAt(image, u, 0.5f, {Filter::kBilinear, wrap, wrap}) == image.at(x, 0));
+                    REQUIRE(sampleAt(image, u, 0.5f, {Filter::bilinear, wrap, wrap}) == image.at(x, 0));
             }
         }
     }
@@ -89,7 +89,7 @@ TEST_CASE("LinearRampSamplesToExactlyThePosition") {
             const int j = i * 7 % (31 * 256);
             const float px = static_cast<float>(i) / 256.0f, py = static_cast<float>(j) / 256.0f;
             const float value = sampleAt(image, (px + 0.5f) / 64.0f, (py + 0.5f) / 32.0f,
-                                         {Filter::kBilinear, Wrap::kClamp, Wrap::kClamp, bits});
+                                         {Filter::bilinear, Wrap::clamp, Wrap::clamp, bits});
             REQUIRE(value == px + 100.0f * py);
         }
 }
@@ -103,22 +103,22 @@ TEST_CASE("WrapModesFollowTheTable") {
     };
     Image<float> row(kWidth, 1), column(1, kWidth);
     for (int i = 0; i < kWidth; i++) row.at(i, 0) = column.at(0, i) = static_cast<float>(i);
-    for (Filter filter : {Filter::kNearest, Filter::kBilinear})
+    for (Filter filter : {Filter::nearest, Filter::bilinear})
         for (int w = 0; w < 3; w++)
             for (int i = 0; i < kCount; i++) {
                 const float u = (static_cast<float>(kFirst + i) + 0.5f) / kWidth;
                 CAPTURE(w);
                 CAPTURE(u);
-                CHECK(sampleAt(row, u, 0.5f, {filter, kWraps[w], Wrap::kClamp}) ==
+                CHECK(sampleAt(row, u, 0.5f, {filter, kWraps[w], Wrap::clamp}) ==
                       static_cast<float>(kTable[w][i]));
-                CHECK(sampleAt(column, 0.5f, u, {filter, Wrap::kClamp, kWraps[w]}) ==
+                CHECK(sampleAt(column, 0.5f, u, {filter, Wrap::clamp, kWraps[w]}) ==
                       static_cast<float>(kTable[w][i]));
                 // Between two centres: the mean of the two entries.
-                if (filter == Filter::kNearest || i + 1 == kCount) continue;
+                if (filter == Filter::nearest || i + 1 == kCount) continue;
                 const float mean = 0.5f * static_cast<float>(kTable[w][i] + kTable[w][i + 1]);
                 const float between = static_cast<float>(kFirst + i + 1) / kWidth;
-                CHECK(sampleAt(row, between, 0.5f, {filter, kWraps[w], Wrap::kClamp}) == mean);
-                CHECK(sampleAt(column, 0.5f, between, {filter, Wrap::kClamp, kWraps[w]}) == mean);
+                CHECK(sampleAt(row, between, 0.5f, {filter, kWraps[w], Wrap::clamp}) == mean);
+                CHECK(sampleAt(column, 0.5f, between, {filter, Wrap::clamp, kWraps[w]}) == mean);
             }
 }
 
@@ -154,7 +154,7 @@ TEST_CASE_TEMPLATE("SamplingInLanesGivesTheBitsOfScalars", L, Lanes<float, 4>, L
     const Image<float> image = randomImage(13, 6, 3, 5);
     const TextureView view(image);
     const std::vector<float> coordinates = awkwardCoordinates(6, 480), others = awkwardCoordinates(7, 480);
-    for (Filter filter : {Filter::kNearest, Filter::kBilinear})
+    for (Filter filter : {Filter::nearest, Filter::bilinear})
         for (Wrap wrapX : kWraps)
             for (Wrap wrapY : kWraps)
                 for (int bits : kFractionBits) {
@@ -181,12 +181,12 @@ TEST_CASE_TEMPLATE("SamplingInLanesGivesTheBitsOfScalars", L, Lanes<float, 4>, L
 TEST_CASE("NonFiniteCoordinatesHaveADefinedTexel") {
     Image<float> image(4, 1);
     for (int x = 0; x < 4; x++) image.at(x, 0) = static_cast<float>(x);
-    for (Filter filter : {Filter::kNearest, Filter::kBilinear}) {
-        auto at = [&](float u, Wrap wrap) { return sampleAt(image, u, 0.5f, {filter, wrap, Wrap::kClamp}); };
-        CHECK(at(kNan, Wrap::kClamp) == 0.0f);
-        CHECK(at(-kInfinity, Wrap::kClamp) == 0.0f);
-        CHECK(at(kInfinity, Wrap::kClamp) == 3.0f);
-        for (Wrap wrap : {Wrap::kRepeat, Wrap::kMirror})
+    for (Filter filter : {Filter::nearest, Filter::bilinear}) {
+        auto at = [&](float u, Wrap wrap) { return sampleAt(image, u, 0.5f, {filter, wrap, Wrap::clamp}); };
+        CHECK(at(kNan, Wrap::clamp) == 0.0f);
+        CHECK(at(-kInfinity, Wrap::clamp) == 0.0f);
+        CHECK(at(kInfinity, Wrap::clamp) == 3.0f);
+        for (Wrap wrap : {Wrap::repeat, Wrap::mirror})
             for (float u : {kNan, kInfinity, -kInfinity}) CHECK(at(u, wrap) == at(0.0f, wrap));
     }
 }
@@ -232,7 +232,7 @@ TEST_CASE("FloatErrorOfBilinearStaysBelowItsBound") {
             for (int i = 0; i < 2000; i++) {
                 const auto u = static_cast<float>(random.uniform(0.0, 1.0));
                 const auto v = static_cast<float>(random.uniform(0.0, 1.0));
-                const SamplerSettings settings{Filter::kBilinear, wrap, wrap};
+                const SamplerSettings settings{Filter::bilinear, wrap, wrap};
                 const double truth = sampleAt<Truth>(image, Truth(u), Truth(v), settings).toDouble();
                 worst = std::max(worst, std::abs(sampleAt(image, u, v, settings) - truth) / bound);
             }
@@ -247,7 +247,7 @@ TEST_CASE_TEMPLATE("SmallFormatsSampleAConstantExactlyToo", R, Rounded<kFp16>, R
     for (auto [width, height] : {std::pair{1, 1}, {7, 3}, {128, 256}}) {
         Image<float> image(width, height);
         image.fill(0.7f);
-        for (Filter filter : {Filter::kNearest, Filter::kBilinear})
+        for (Filter filter : {Filter::nearest, Filter::bilinear})
             for (Wrap wrap : kWraps)
                 for (int bits : {kExactFraction, 4, 8})
                     for (float u : awkwardCoordinates(11, 200)) {
@@ -265,7 +265,7 @@ TEST_CASE_TEMPLATE("SmallFormatsSampleAConstantExactlyToo", R, Rounded<kFp16>, R
 TEST_CASE("BadSamplerSettingsAreRejected") {
     using Kernel = SamplerKernel<float>;
     CHECK_THROWS_AS(samplingOf<Kernel>({}, 0, 4), PreconditionError);
-    CHECK_THROWS_AS(samplingOf<Kernel>({Filter::kBilinear, Wrap::kClamp, Wrap::kClamp, 17}, 4, 4),
+    CHECK_THROWS_AS(samplingOf<Kernel>({Filter::bilinear, Wrap::clamp, Wrap::clamp, 17}, 4, 4),
                     PreconditionError);
     CHECK_THROWS_AS(TextureView(Image<float>()), PreconditionError);
 }
