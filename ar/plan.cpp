@@ -110,9 +110,9 @@ class Planner {
         plan_.request[component] = output;
     }
     bool runs(std::string_view name) const { return plan_.find(name)->runs; }
-    void addNeed(std::string_view pass, std::string need) {
+    void addNeed(std::string_view pass, const std::string& need) {
         for (PlanPass& p : plan_.passes)
-            if (p.name == pass) p.needs.push_back(std::move(need));
+            if (p.name == pass) p.needs.push_back(need);
     }
 
     // A cube map of the scene for each visible mirror that asks for one.

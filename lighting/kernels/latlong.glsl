@@ -31,7 +31,8 @@ vec3 sampleLatLong(texture env, vec3 direction, Sampling s) {
     integer x0 = wrapTexel(x.first, s.width, repeats);
     integer x1 = wrapTexel(x.first + integer(1), s.width, repeats);
     // Beyond a pole lies the pole's row, half a turn further.
-    integer halfTurn = integer(s.width / 2);
+    int halfWidth = s.width / 2;
+    integer halfTurn = integer(halfWidth);
     boolean beyondNorth = lessInteger(y.first, integer(0));
     boolean beyondSouth = !lessInteger(y.first + integer(1), integer(s.height));
     integer y0 = clampInteger(y.first, integer(0), integer(s.height - 1));
