@@ -7,6 +7,7 @@
 #include "ar/compare.h"
 #include "ar/image_io.h"
 #include "ar/scene_loader.h"
+#include "ar/transform.h"
 #include "tests/support/scratch_folder.h"
 
 using namespace etalon;
@@ -71,6 +72,22 @@ TEST_CASE("AskingForMoreOutputsChangesNoBitOfTheOthers") {
         CHECK(std::get<Image<float>>(many.find(channel.name)->values) ==
               std::get<Image<float>>(channel.values));
     }
+}
+
+// Also the empty scene: nothing but the environment. A quarter turn is exact, so the bits agree.
+TEST_CASE("TurningTheEnvironmentIsTurningTheCameraBack") {
+    Scene scene = loadScene("scenes/minimal.toml");
+    scene.meshes.clear();
+    scene.environment.kind = EnvironmentKind::file;
+    scene.environment.file = "scenes/synthetic_64x32.hdr";
+    scene.camera.cameraToWorld = glm::dmat4(1);
+    scene.environment.rotation_deg = -90;
+    const Frame turned = frameOf(scene);
+    scene.environment.rotation_deg = 0;
+    const Frame straight = frameOf(scene);
+    CHECK_FALSE(sameBits(turned, straight));
+    scene.camera.cameraToWorld = rotationAboutAxis({0, 1, 0}, 90);
+    CHECK(sameBits(frameOf(scene), turned));
 }
 
 TEST_CASE("OutputsNameTheirChannelsForTheUsualViewers") {
