@@ -7,7 +7,7 @@
 
 #include "ar/render_scene.h"
 #include "ar/scene_loader.h"
-#include "numeric/parallel.h"
+#include "raster/profile.h"
 
 namespace etalon {
 
@@ -23,7 +23,7 @@ struct SceneOptions {
         };
         verb.add_option("scene", scene, "Scene file (TOML)")->required();
         verb.add_option("--profile", profile, "Arithmetic profile; default: the scene's")
-            ->check(names(kProfileNames));
+            ->check(names(profileNames()));
         verb.add_option("--outputs", outputs, "Outputs instead of the scene's")
             ->delimiter(',')
             ->check(names(kOutputNames));

@@ -14,6 +14,8 @@
 #include <string_view>
 #include <vector>
 
+#include "lighting/surface_scene.h"
+
 namespace etalon {
 
 // Largest magnitude of a length, coordinate, radiance or irradiance in a scene: products of three stay finite
@@ -33,8 +35,6 @@ inline constexpr std::array<std::string_view, 11> kOutputNames{"beauty", "depth"
                                                                "ids",    "coverage",   "diffuse",  "specular",
                                                                "mirror", "background", "ambient"};
 inline constexpr std::array<std::string_view, 3> kToneMapNames{"linear", "reinhard", "filmic"};
-inline constexpr std::array<std::string_view, 10> kProfileNames{
-    "truth", "f64", "f32", "d3d11", "vulkan-min", "nv40-fp32", "nv40-fp16", "r300-fp24", "fp16", "bf16"};
 
 // A pinhole camera, in pixels: a point (x, y, -z) of the camera's frame, z > 0, falls on the image at
 // (cx + fx x / z, cy - fy y / z); pixel centres at +0.5, row 0 on top. fx, fy > 0.
@@ -63,8 +63,6 @@ struct Environment {
     double rotation_deg = 0;
 };
 
-enum class MaterialKind : uint8_t { lambert, blinnPhong, mirror };
-
 // Squares of edge size_m on a plane, counted from its point along its u and v axes: where
 // floor(u / size) + floor(v / size) is odd, `diffuse` replaces the material's.
 struct Checker {
@@ -82,9 +80,6 @@ struct Material {
     double exponent = 1;
     std::optional<Checker> checker;  // only on planes
 };
-
-// What a mirror shows: the environment alone, or a cube map of the scene rendered from the object's centre.
-enum class Reflection : uint8_t { environment, scene };
 
 // A mesh file placed once or more. objectToWorld holds at least one affine matrix (last row 0 0 0 1), none
 // singular; a negative determinant turns the winding round (transform.h).
@@ -127,7 +122,7 @@ struct Output {
 struct Render {
     int line = 0;
     int samples = 1;              // per pixel: 1, 4 or 16
-    std::string profile = "f32";  // of kProfileNames
+    std::string profile = "f32";  // of profiles()
     uint64_t seed = 0;
 };
 

@@ -7,6 +7,7 @@
 
 #include "ar/scene_parts.h"
 #include "numeric/check.h"
+#include "raster/profile.h"
 
 namespace etalon {
 
@@ -80,7 +81,7 @@ Render readRender(const std::string& file, const TomlValue& value) {
             reader.failKey("samples", fmt::format("must be 1, 4 or 16, not {}", samples));
         render.samples = static_cast<int>(samples);
     }
-    if (reader.has("profile")) render.profile = reader.choice("profile", kProfileNames);
+    if (reader.has("profile")) render.profile = reader.choice("profile", profileNames());
     if (reader.has("seed")) render.seed = static_cast<uint64_t>(reader.integer("seed", 0, INT64_MAX));
     return render;
 }

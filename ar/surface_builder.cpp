@@ -14,17 +14,7 @@ namespace {
 
 SurfaceMaterial toSurface(const Material& material) {
     SurfaceMaterial surface;
-    switch (material.kind) {
-        case MaterialKind::lambert:
-            surface.kind = SurfaceKind::lambert;
-            break;
-        case MaterialKind::blinnPhong:
-            surface.kind = SurfaceKind::blinnPhong;
-            break;
-        case MaterialKind::mirror:
-            surface.kind = SurfaceKind::mirror;
-            break;
-    }
+    surface.kind = material.kind;
     surface.diffuse = material.diffuse;
     surface.specular = material.specular;
     surface.reflectance = material.reflectance;
@@ -120,8 +110,7 @@ SurfaceScene buildSurfaces(const Scene& scene, std::vector<std::string>& warning
         instance.toWorld = mesh.objectToWorld[object.placement];
         instance.normalToWorld = normalMatrix(instance.toWorld);
         instance.twoSided = mesh.twoSided;
-        instance.reflection =
-            mesh.reflection == Reflection::scene ? SurfaceReflection::scene : SurfaceReflection::environment;
+        instance.reflection = mesh.reflection;
         instance.cubeSize = mesh.cubeSize;
         instance.cubeCentre_m = centreOfBounds(surfaces.meshes[instance.mesh], instance.toWorld);
         surfaces.instances.push_back(instance);

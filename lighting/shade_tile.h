@@ -219,13 +219,13 @@ template <class T>
 void TileShaderOf<T>::shadeSurface(const Bucket& bucket, Group group) {
     const SurfaceMaterial& material = *bucket.material;
     const ShadeRequest& request = job_.request;
-    const bool hasDiffuse = material.kind != SurfaceKind::mirror;
+    const bool hasDiffuse = material.kind != MaterialKind::mirror;
     const bool lit = !toLight_.empty();
     const bool ambient = hasDiffuse && request.needs(ShadeOutput::ambient);
     const bool diffuse = hasDiffuse && lit && request.needs(ShadeOutput::diffuse);
     const bool specular =
-        material.kind == SurfaceKind::blinnPhong && lit && request.needs(ShadeOutput::specular);
-    const bool mirror = material.kind == SurfaceKind::mirror && request.needs(ShadeOutput::mirror);
+        material.kind == MaterialKind::blinnPhong && lit && request.needs(ShadeOutput::specular);
+    const bool mirror = material.kind == MaterialKind::mirror && request.needs(ShadeOutput::mirror);
     const bool distance = request[ShadeOutput::distance], normals = request[ShadeOutput::normals];
     const bool needNormal = diffuse || specular || mirror || normals,
                needEye = specular || mirror || distance;

@@ -13,11 +13,11 @@
 
 namespace etalon {
 
-enum class SurfaceKind : uint8_t { lambert, blinnPhong, mirror };
+enum class MaterialKind : uint8_t { lambert, blinnPhong, mirror };
 
 // Linear Rec.709 reflectances in [0, 1].
 struct SurfaceMaterial {
-    SurfaceKind kind = SurfaceKind::lambert;
+    MaterialKind kind = MaterialKind::lambert;
     glm::dvec3 diffuse{0};
     glm::dvec3 specular{0};
     glm::dvec3 reflectance{0};  // of the mirror
@@ -43,14 +43,14 @@ struct SurfaceMesh {
 
 // Where a mirror looks: into the environment alone, or into a cube map of the scene around the object's
 // centre.
-enum class SurfaceReflection : uint8_t { environment, scene };
+enum class Reflection : uint8_t { environment, scene };
 
 // A placed mesh. normalToWorld is the inverse transpose of the upper 3x3 part, up to a positive factor.
 struct SurfaceInstance {
     uint32_t mesh = 0, material = 0;
     glm::dmat4 toWorld{1};
     glm::dmat3 normalToWorld{1};
-    SurfaceReflection reflection = SurfaceReflection::environment;
+    Reflection reflection = Reflection::environment;
     int cubeSize = 0;            // of the scene reflection, in texels
     glm::dvec3 cubeCentre_m{0};  // world space
     bool twoSided = true;        // false: culled when seen from behind

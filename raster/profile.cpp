@@ -34,6 +34,12 @@ constexpr std::array<Profile, 10> kProfiles = {{
 
 std::span<const Profile> profiles() { return kProfiles; }
 
+std::vector<std::string_view> profileNames() {
+    std::vector<std::string_view> names;
+    for (const Profile& profile : kProfiles) names.push_back(profile.name);
+    return names;
+}
+
 const Profile* findProfile(std::string_view name) {
     for (const Profile& profile : kProfiles)
         if (profile.name == name) return &profile;

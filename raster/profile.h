@@ -4,6 +4,7 @@
 
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "raster/render_target.h"
 #include "raster/sampler.h"
@@ -37,6 +38,9 @@ struct Profile {
 
 // All profiles; the first is the default.
 std::span<const Profile> profiles();
+
+// Their names, in the same order.
+std::vector<std::string_view> profileNames();
 
 // The profile of this name, or null.
 const Profile* findProfile(std::string_view name);

@@ -8,7 +8,6 @@
 #include "ar/scene_loader.h"
 #include "ar/transform.h"
 #include "numeric/check.h"
-#include "raster/profile.h"
 #include "tests/support/scratch_folder.h"
 
 namespace etalon {
@@ -178,11 +177,6 @@ TEST_CASE("InstancesAreAppliedAfterTheMeshsOwnTransform") {
     // +Z: 2 Z, unturned by Z, mirrored by -1, then turned by Y to -X.
     CHECK(transformPoint(places[1], {0, 0, 1}) == glm::dvec3(-2, 0, 0));
     CHECK(determinant3(places[1]) < 0);
-}
-
-TEST_CASE("ProfilesOfTheSceneFileAreThoseOfTheRasterizer") {
-    for (const std::string_view name : kProfileNames) CHECK_MESSAGE(findProfile(name) != nullptr, name);
-    CHECK(profiles().size() == kProfileNames.size());
 }
 
 // A line of the good scene that is replaced, the line that the message must name, and words it must have.

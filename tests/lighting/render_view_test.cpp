@@ -141,7 +141,7 @@ TEST_CASE("WhitePlateFacingIrradiancePiReflectsOne") {
 TEST_CASE("BeautyIsTheSumOfItsComponents") {
     SurfaceScene scene = test::box(2, 3, 4);
     for (SurfaceMaterial& material : scene.materials) {
-        material.kind = SurfaceKind::blinnPhong;
+        material.kind = MaterialKind::blinnPhong;
         material.specular = glm::dvec3(0.3);
         material.exponent = 20;
     }
@@ -166,7 +166,7 @@ TEST_CASE("BeautyIsTheSumOfItsComponents") {
 TEST_CASE("MirrorShowsTheConstantEnvironmentTimesItsReflectance") {
     SurfaceScene scene;
     SurfaceMaterial chrome;
-    chrome.kind = SurfaceKind::mirror;
+    chrome.kind = MaterialKind::mirror;
     chrome.reflectance = {0.5, 0.25, 1};
     test::addObject(scene, test::rectangle({0, 0, -2}, {1, 0, 0}, {0, 1, 0}), chrome);
     scene.environment.constant = {2, 2, 2};
@@ -235,7 +235,7 @@ TEST_CASE("ShadingDoesNotDependOnTilesOrThreads") {
 TEST_CASE("FlushingSubnormalsChangesNoBitOfTheShading") {
     SurfaceScene scene = test::box(2, 3, 4);
     for (SurfaceMaterial& material : scene.materials) {
-        material.kind = SurfaceKind::blinnPhong;
+        material.kind = MaterialKind::blinnPhong;
         material.specular = glm::dvec3(0.3);
         material.exponent = 4000;
     }
@@ -268,7 +268,7 @@ TEST_CASE("FlushingSubnormalsChangesNoBitOfTheShading") {
 TEST_CASE("WiderFormatsAreCloserToTheTruth") {
     SurfaceScene scene = test::box(2, 3, 4);
     for (SurfaceMaterial& material : scene.materials) {
-        material.kind = SurfaceKind::blinnPhong;
+        material.kind = MaterialKind::blinnPhong;
         material.specular = glm::dvec3(0.3);
         material.exponent = 20;
     }
