@@ -137,9 +137,16 @@ TEST_CASE("HiddenObjectsNeedNoPasses") {
     CHECK(running(plan) == std::set<std::string>{"geometry", "visibility", "ambient", "diffuse", "beauty"});
     CHECK(plan.find("mirror")->reason == "no mirror is visible");
     CHECK(plan.find("background")->reason == "objects cover every pixel");
+    for (const bool cube : plan.objectCube) CHECK_FALSE(cube);
     // A mirror that only a cube map sees still needs the environment.
     facts.objectVisible = {true, false, true, false};
     CHECK(makePlan(scene, {}, &facts).environmentCube);
+    // So does the background that only a cube map sees.
+    Scene noPlate = fullScene();
+    noPlate.meshes.resize(3);
+    facts.objectVisible = {false, false, true};
+    CHECK_FALSE(makePlan(noPlate, {}, &facts).environmentCube);
+    CHECK(makePlan(noPlate, {}, &facts).readEnvironment);
 }
 
 TEST_CASE("APngNeedsTheBeautyWhateverTheOutputsAre") {
