@@ -137,7 +137,10 @@ TEST_CASE("HiddenObjectsNeedNoPasses") {
     CHECK(running(plan) == std::set<std::string>{"geometry", "visibility", "ambient", "diffuse", "beauty"});
     CHECK(plan.find("mirror")->reason == "no mirror is visible");
     CHECK(plan.find("background")->reason == "objects cover every pixel");
-    for (const bool cube : plan.objectCube) CHECK_FALSE(cube);
+    // A visible mirror without a cube map does not call for that of a hidden one.
+    facts.objectVisible = {false, false, false, true};
+    CHECK(makePlan(scene, {}, &facts).find("mirror")->runs);
+    for (const bool cube : makePlan(scene, {}, &facts).objectCube) CHECK_FALSE(cube);
     // A mirror that only a cube map sees still needs the environment.
     facts.objectVisible = {true, false, true, false};
     CHECK(makePlan(scene, {}, &facts).environmentCube);
