@@ -23,7 +23,10 @@ constexpr std::array<Profile, 10> kProfiles = {{
      Filter::nearest},
     {"nv40-fp16", "GeForce 6 half precision; nearest-even is assumed, 8-bit texture fractions, D24",
      FragmentArithmetic::fp16Nv40, RasterReal::fp32, DepthFormat::d24, DepthRounding::exact, 8, 8},
-    {"r300-fp24", "Radeon 9700-X800: 24-bit fragments, toward zero, float textures point-sampled, D24",
+    {"r300-fp24",
+     "Radeon 9700-X800: 24-bit fragments, toward zero, float textures point-sampled, D24; division is one "
+     "exact step, "
+     "not the documented reciprocal and product",
      FragmentArithmetic::fp24R300, RasterReal::fp32, DepthFormat::d24, DepthRounding::exact, 8, 8,
      Filter::nearest},
     {"fp16", "IEEE half precision for fragments, single for vertices, D32F", FragmentArithmetic::fp16},
