@@ -6,12 +6,65 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
+#include <atomic>
+#include <exception>
+#include <mutex>
 #include <thread>
+#include <vector>
 
 #include "numeric/check.h"
 #include "numeric/fp_environment.h"
 
 namespace etalon {
+namespace {
+
+// The thread sanitizer does not see the synchronisation inside oneTBB, which is not instrumented: under it,
+// plain threads take the items, so that what it reports are races between items.
+#if defined(__SANITIZE_THREAD__)
+#define ETALON_PLAIN_THREADS 1
+#elif defined(__has_feature)
+#if __has_feature(thread_sanitizer)
+#define ETALON_PLAIN_THREADS 1
+#endif
+#endif
+
+#if defined(ETALON_PLAIN_THREADS)
+void runItems(size_t count, int threads, const std::function<void(size_t)>& body) {
+    std::atomic<size_t> next{0};
+    std::mutex mutex;
+    std::exception_ptr failure;
+    const auto work = [&] {
+        try {
+            requireDefaultFpEnvironment();
+            for (size_t i = next++; i < count; i = next++) body(i);
+        } catch (...) {
+            const std::lock_guard lock(mutex);
+            if (!failure) failure = std::current_exception();
+            next = count;
+        }
+    };
+    std::vector<std::thread> workers;
+    for (int t = 0; t < threads; t++) workers.emplace_back(work);
+    for (std::thread& worker : workers) worker.join();
+    if (failure) std::rethrow_exception(failure);
+}
+#else
+void runItems(size_t count, int threads, const std::function<void(size_t)>& body) {
+    // More threads than the hardware has must be allowed explicitly.
+    const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism,
+                                      static_cast<size_t>(std::max(threads, hardwareThreads())));
+    tbb::task_arena arena(threads);
+    arena.execute([&] {
+        tbb::parallel_for(tbb::blocked_range<size_t>(0, count, 1),
+                          [&](const tbb::blocked_range<size_t>& range) {
+                              requireDefaultFpEnvironment();
+                              for (size_t i = range.begin(); i != range.end(); i++) body(i);
+                          });
+    });
+}
+#endif
+
+}  // namespace
 
 int hardwareThreads() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
 
@@ -22,18 +75,7 @@ void parallelFor(size_t count, int threads, const std::function<void(size_t)>& b
         for (size_t i = 0; i < count; i++) body(i);
         return;
     }
-    // More threads than the hardware has must be allowed explicitly.
-    const int wanted = threads == 0 ? hardwareThreads() : threads;
-    const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism,
-                                      static_cast<size_t>(std::max(wanted, hardwareThreads())));
-    tbb::task_arena arena(wanted);
-    arena.execute([&] {
-        tbb::parallel_for(tbb::blocked_range<size_t>(0, count, 1),
-                          [&](const tbb::blocked_range<size_t>& range) {
-                              requireDefaultFpEnvironment();
-                              for (size_t i = range.begin(); i != range.end(); i++) body(i);
-                          });
-    });
+    runItems(count, threads == 0 ? hardwareThreads() : threads, body);
 }
 
 }  // namespace etalon
