@@ -10,7 +10,7 @@ namespace {
 
 bool isInside(const TriangleRecord& record, int32_t x_subpx, int32_t y_subpx) {
     for (const EdgeFunction& edge : edgeFunctions(record))
-        if (edge.at(x_subpx, y_subpx) < (edge.ownsZero ? 0 : 1)) return false;
+        if (!edge.covers(x_subpx, y_subpx)) return false;
     return true;
 }
 

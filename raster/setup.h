@@ -19,6 +19,8 @@ struct EdgeFunction {
     int64_t at(int64_t x_subpx, int64_t y_subpx) const {
         return stepX * x_subpx + stepY * y_subpx + constant;
     }
+    // True if a sample there is on the inner side of the edge, or on an edge that owns it.
+    bool covers(int64_t x_subpx, int64_t y_subpx) const { return at(x_subpx, y_subpx) >= (ownsZero ? 0 : 1); }
 };
 
 std::array<EdgeFunction, 3> edgeFunctions(const TriangleRecord& record);

@@ -34,10 +34,12 @@ RowInt laneIndices() {
     return RowInt::generate([](int i) { return i; });
 }
 
-BlockMask compareDepth(Compare compare, RowInt a, RowInt b) {
+// a compared with b: a Result (a mask for lanes, bool for single values).
+template <class Result, class Value>
+Result compareValues(Compare compare, Value a, Value b) {
     switch (compare) {
         case Compare::never:
-            return BlockMask(false);
+            return Result(false);
         case Compare::less:
             return a < b;
         case Compare::equal:
@@ -51,31 +53,9 @@ BlockMask compareDepth(Compare compare, RowInt a, RowInt b) {
         case Compare::greaterEqual:
             return a >= b;
         case Compare::always:
-            return BlockMask(true);
+            return Result(true);
     }
-    return BlockMask(false);
-}
-
-bool compareStencil(Compare compare, int a, int b) {
-    switch (compare) {
-        case Compare::never:
-            return false;
-        case Compare::less:
-            return a < b;
-        case Compare::equal:
-            return a == b;
-        case Compare::lessEqual:
-            return a <= b;
-        case Compare::greater:
-            return a > b;
-        case Compare::notEqual:
-            return a != b;
-        case Compare::greaterEqual:
-            return a >= b;
-        case Compare::always:
-            return true;
-    }
-    return false;
+    return Result(false);
 }
 
 uint8_t stencilResult(StencilOperation operation, uint8_t stored, uint8_t reference) {
@@ -286,7 +266,7 @@ BlockMask TileRasterizer::windingRow(std::span<const Piece> pieces, const BlockR
         for (size_t k = 0; k < pieces.size(); k++) {
             bool inside = true;
             for (const EdgeFunction& edge : pieces[k].edges)
-                inside = inside && edge.at(x_subpx, row.y_subpx) >= (edge.ownsZero ? 0 : 1);
+                inside = inside && edge.covers(x_subpx, row.y_subpx);
             if (!inside) continue;
             winding += pieces[k].reversed ? -1 : 1;
             if (!pieces[k].reversed && first < 0) first = static_cast<int>(k);
@@ -326,7 +306,7 @@ void TileRasterizer::testRow(const Piece& piece, const BlockRow& row, BlockMask 
     const RowInt stored = RowInt::load(&depth_[offset]);
     const RowInt depth =
         format_.real == RasterReal::fp32 ? rowDepth<float>(piece, row) : rowDepth<double>(piece, row);
-    BlockMask passed = covered && compareDepth(state.depthCompare, depth, stored);
+    BlockMask passed = covered && compareValues<BlockMask>(state.depthCompare, depth, stored);
     if (state.stencil.enabled) passed = stencilRow(piece, row, covered, passed);
     if (state.depthWrite) select(passed, depth, stored).store(&depth_[offset]);
     if (!state.idWrite) return;
@@ -345,7 +325,8 @@ BlockMask TileRasterizer::stencilRow(const Piece& piece, const BlockRow& row, Bl
         if (!covered[i]) continue;
         uint8_t& stored = stencil_[offset + static_cast<size_t>(i)];
         StencilOperation operation = face.onStencilFail;
-        if (compareStencil(face.compare, stencil.reference & stencil.readMask, stored & stencil.readMask)) {
+        if (compareValues<bool>(face.compare, stencil.reference & stencil.readMask,
+                                stored & stencil.readMask)) {
             operation = depthPassed[i] ? face.onPass : face.onDepthFail;
             passed.m[i] = depthPassed[i] ? -1 : 0;
         }

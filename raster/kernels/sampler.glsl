@@ -84,19 +84,38 @@ integer nearestTexel(real folded, int size) {
     return clampInteger(toInteger(floor(folded * real(size))), integer(0), integer(size - 1));
 }
 
+// The four texels of a bilinear sample and the weights of the right and lower ones.
+struct ImageTaps {
+    integer x0;
+    integer x1;
+    integer y0;
+    integer y1;
+    real fractionX;
+    real fractionY;
+};
+
+// u and v folded.
+ImageTaps imageTaps(real u, real v, Sampling s) {
+    TexelPair x = texelPair(u * real(s.width) - real(0.5), s.fractionBits);
+    TexelPair y = texelPair(v * real(s.height) - real(0.5), s.fractionBits);
+    ImageTaps taps;
+    taps.x0 = wrapTexel(x.first, s.width, s.wrapX);
+    taps.x1 = wrapTexel(x.first + integer(1), s.width, s.wrapX);
+    taps.y0 = wrapTexel(y.first, s.height, s.wrapY);
+    taps.y1 = wrapTexel(y.first + integer(1), s.height, s.wrapY);
+    taps.fractionX = x.fraction;
+    taps.fractionY = y.fraction;
+    return taps;
+}
+
 real sampleReal(texture t, integer layer, real u, real v, Sampling s) {
     real foldedU = foldCoordinate(u, s.wrapX);
     real foldedV = foldCoordinate(v, s.wrapY);
     if (s.filterMode == 0)
         return fetchReal(t, layer, nearestTexel(foldedU, s.width), nearestTexel(foldedV, s.height));
-    TexelPair x = texelPair(foldedU * real(s.width) - real(0.5), s.fractionBits);
-    TexelPair y = texelPair(foldedV * real(s.height) - real(0.5), s.fractionBits);
-    integer x0 = wrapTexel(x.first, s.width, s.wrapX);
-    integer x1 = wrapTexel(x.first + integer(1), s.width, s.wrapX);
-    integer y0 = wrapTexel(y.first, s.height, s.wrapY);
-    integer y1 = wrapTexel(y.first + integer(1), s.height, s.wrapY);
-    return bilinear(fetchReal(t, layer, x0, y0), fetchReal(t, layer, x1, y0), fetchReal(t, layer, x0, y1),
-                    fetchReal(t, layer, x1, y1), x.fraction, y.fraction);
+    ImageTaps p = imageTaps(foldedU, foldedV, s);
+    return bilinear(fetchReal(t, layer, p.x0, p.y0), fetchReal(t, layer, p.x1, p.y0), fetchReal(t, layer, p.x0, p.y1),
+                    fetchReal(t, layer, p.x1, p.y1), p.fractionX, p.fractionY);
 }
 
 vec3 sampleRgb(texture t, integer layer, real u, real v, Sampling s) {
@@ -104,12 +123,7 @@ vec3 sampleRgb(texture t, integer layer, real u, real v, Sampling s) {
     real foldedV = foldCoordinate(v, s.wrapY);
     if (s.filterMode == 0)
         return fetchRgb(t, layer, nearestTexel(foldedU, s.width), nearestTexel(foldedV, s.height));
-    TexelPair x = texelPair(foldedU * real(s.width) - real(0.5), s.fractionBits);
-    TexelPair y = texelPair(foldedV * real(s.height) - real(0.5), s.fractionBits);
-    integer x0 = wrapTexel(x.first, s.width, s.wrapX);
-    integer x1 = wrapTexel(x.first + integer(1), s.width, s.wrapX);
-    integer y0 = wrapTexel(y.first, s.height, s.wrapY);
-    integer y1 = wrapTexel(y.first + integer(1), s.height, s.wrapY);
-    return bilinear3(fetchRgb(t, layer, x0, y0), fetchRgb(t, layer, x1, y0), fetchRgb(t, layer, x0, y1),
-                     fetchRgb(t, layer, x1, y1), x.fraction, y.fraction);
+    ImageTaps p = imageTaps(foldedU, foldedV, s);
+    return bilinear3(fetchRgb(t, layer, p.x0, p.y0), fetchRgb(t, layer, p.x1, p.y0), fetchRgb(t, layer, p.x0, p.y1),
+                     fetchRgb(t, layer, p.x1, p.y1), p.fractionX, p.fractionY);
 }
