@@ -1,5 +1,6 @@
 #include <memory>
 
+#include "app/scene_options.h"
 #include "app/verbs.h"
 
 namespace etalon {
@@ -39,6 +40,7 @@ void addAccept(CLI::App& app, ExitCode& exitCode, const GoldenSupport& support) 
     verb->add_option("PATTERN", options->pattern, "Names of cases: * ? [...]")->required();
     verb->add_option("--reason", options->reason, "Why the images change; kept in the manifest")->required();
     verb->add_option("--manifest", options->manifest, "Manifest of the golden images")->capture_default_str();
+    addIsaOption(*verb);
     verb->callback([options, &exitCode, &support] { exitCode = runAccept(*options, support); });
 }
 

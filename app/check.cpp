@@ -1,6 +1,7 @@
 #include <memory>
 
 #include "app/report.h"
+#include "app/scene_options.h"
 #include "app/verbs.h"
 
 namespace etalon {
@@ -68,6 +69,7 @@ void addCheck(CLI::App& app, ExitCode& exitCode, const GoldenSupport& support) {
     verb->add_option("PATTERN", options->pattern, "Names of cases: * ? [...]")->capture_default_str();
     verb->add_option("--manifest", options->manifest, "Manifest of the golden images")->capture_default_str();
     verb->add_flag("--json", options->json, "Report as JSON");
+    addIsaOption(*verb);
     verb->callback([options, &exitCode, &support] { exitCode = runCheck(*options, support); });
 }
 

@@ -7,9 +7,20 @@
 
 #include "ar/render_scene.h"
 #include "ar/scene_loader.h"
+#include "numeric/isa.h"
 #include "raster/profile.h"
 
 namespace etalon {
+
+// --isa for a verb that renders: selects the level when it is parsed.
+inline void addIsaOption(CLI::App& verb) {
+    std::vector<std::string> names;
+    for (const IsaLevel level : usableIsaLevels()) names.push_back(isaName(level));
+    verb.add_option_function<std::string>(
+            "--isa", [](const std::string& name) { selectIsa(*findIsa(name)); },
+            "Instruction set level of the inner loops; default: the widest. Changes no bit")
+        ->check(CLI::IsMember(names));
+}
 
 struct SceneOptions {
     std::string scene, profile;
@@ -28,6 +39,7 @@ struct SceneOptions {
             ->delimiter(',')
             ->check(names(kOutputNames));
         verb.add_flag("--strict", strict, "Questionable input (negative or NaN radiance) is an error");
+        addIsaOption(verb);
         verb.add_option("--threads", raster.threads, "Threads; 0: all. Changes no bit")
             ->check(CLI::Range(0, 1024));
         verb.add_option("--tile", raster.tileSize, "Tile size in pixels, a multiple of 8. Changes no bit")

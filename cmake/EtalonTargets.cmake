@@ -12,13 +12,14 @@ target_compile_options(etalon_numeric_flags INTERFACE -ffp-contract=off -fno-fas
 # two of "to[i] = 1.0 + (float)from[i]" in a row keep the double (test: TheCompilerKeepsTheRoundingOfNeighbours).
 target_compile_options(etalon_numeric_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:-fno-tree-slp-vectorize>)
 
-if(ETALON_ARCH)
-  target_compile_options(etalon_numeric_flags INTERFACE -march=${ETALON_ARCH})
-elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
-  target_compile_options(etalon_numeric_flags INTERFACE -march=x86-64-v2)
-endif()
 # A note about passing wide vectors between functions; nothing passes them across objects.
 target_compile_options(etalon_numeric_flags INTERFACE -Wno-psabi)
+
+# Objects outside the levels of EtalonLevels.cmake run on every processor of x86-64-v2.
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+  target_compile_options(etalon_numeric_flags INTERFACE
+    $<$<NOT:$<BOOL:$<TARGET_PROPERTY:ETALON_LEVEL>>>:-march=x86-64-v2>)
+endif()
 
 # Warnings for our own code only; not exported.
 add_library(etalon_warnings INTERFACE)

@@ -2,56 +2,30 @@
 
 #include <algorithm>
 
+#include "lighting/lighting_passes.h"
 #include "numeric/check.h"
-#include "numeric/kernel_types.h"
 #include "numeric/parallel.h"
 
 namespace etalon {
 namespace {
 
-template <class T>
-struct VertexKernels {
-#include "numeric/kernel_scope.inc"
-#include "raster/kernels/transform.glsl"
-};
-
 constexpr size_t kVerticesPerTask = 16384;
 
-using Rows = std::array<glm::dvec4, 4>;
-
-// Calls write(i, x, y, z, w) with the rows applied to the point (get(i), 1) for each i in [0, count).
-template <class S, class Get, class Write>
-void transformRange(const Rows& rows, size_t begin, size_t end, Get get, Write write) {
-    using T = Lanes<S, kNativeLanes<S>>;
-    using Kernels = VertexKernels<T>;
-    using vec4 = typename Kernels::vec4;
-    Kernels kernels;
-    const auto toLanes = [](const glm::dvec4& row) { return vec4(T(row.x), T(row.y), T(row.z), T(row.w)); };
-    const vec4 row0 = toLanes(rows[0]), row1 = toLanes(rows[1]), row2 = toLanes(rows[2]),
-               row3 = toLanes(rows[3]);
-    forEachLaneGroup<T::size>(end - begin, [&](size_t first, int active) {
-        const auto item = [&](int lane) {
-            return begin + first + static_cast<size_t>(std::min(lane, active - 1));
-        };
-        const typename Kernels::vec3 p(T::generate([&](int i) { return get(item(i)).x; }),
-                                       T::generate([&](int i) { return get(item(i)).y; }),
-                                       T::generate([&](int i) { return get(item(i)).z; }));
-        const vec4 q = kernels.transformPoint(row0, row1, row2, row3, p);
-        for (int i = 0; i < active; i++)
-            write(item(i), static_cast<double>(q.x[i]), static_cast<double>(q.y[i]),
-                  static_cast<double>(q.z[i]), static_cast<double>(q.w[i]));
+// Calls body(begin, count) for the parts of [0, count).
+template <class F>
+void inTasks(size_t count, int threads, F&& body) {
+    parallelFor((count + kVerticesPerTask - 1) / kVerticesPerTask, threads, [&](size_t task) {
+        const size_t begin = task * kVerticesPerTask;
+        body(begin, std::min(kVerticesPerTask, count - begin));
     });
 }
 
-template <class Get, class Write>
-void transformAll(RasterReal real, int threads, const Rows& rows, size_t count, Get get, Write write) {
-    const size_t tasks = (count + kVerticesPerTask - 1) / kVerticesPerTask;
-    parallelFor(tasks, threads, [&](size_t task) {
-        const size_t begin = task * kVerticesPerTask, end = std::min(begin + kVerticesPerTask, count);
-        if (real == RasterReal::fp32)
-            transformRange<float>(rows, begin, end, get, write);
-        else
-            transformRange<double>(rows, begin, end, get, write);
+void placeAll(RasterReal real, int threads, const TransformRows& rows, const std::vector<glm::vec3>& from,
+              std::vector<glm::dvec3>& to) {
+    to.resize(from.size());
+    const auto transform = lightingPasses().transformPoints;
+    inTasks(from.size(), threads, [&](size_t begin, size_t count) {
+        transform(real, rows, std::span(from).subspan(begin, count), std::span(to).subspan(begin, count));
     });
 }
 
@@ -77,26 +51,16 @@ std::vector<PlacedMesh> placeMeshes(const SurfaceScene& scene, RasterReal vertex
         PlacedMesh& result = placed[i];
         result.mesh = &mesh;
         result.mirrored = determinant(instance.toWorld) < 0;
-        result.positions.resize(mesh.positions.size());
-        result.normals.resize(mesh.normals.size());
         const glm::dmat4& m = instance.toWorld;
         const glm::dmat3& n = instance.normalToWorld;
-        Rows rows, normalRows;
+        TransformRows rows, normalRows;
         for (int r = 0; r < 4; r++)
             rows[static_cast<size_t>(r)] = glm::dvec4(m[0][r], m[1][r], m[2][r], m[3][r]);
         for (int r = 0; r < 3; r++)
             normalRows[static_cast<size_t>(r)] = glm::dvec4(n[0][r], n[1][r], n[2][r], 0);
         normalRows[3] = glm::dvec4(0, 0, 0, 1);
-        transformAll(
-            vertexReal, threads, rows, mesh.positions.size(), [&](size_t v) { return mesh.positions[v]; },
-            [&](size_t v, double x, double y, double z, double) {
-                result.positions[v] = {x, y, z};
-            });
-        transformAll(
-            vertexReal, threads, normalRows, mesh.normals.size(), [&](size_t v) { return mesh.normals[v]; },
-            [&](size_t v, double x, double y, double z, double) {
-                result.normals[v] = {x, y, z};
-            });
+        placeAll(vertexReal, threads, rows, mesh.positions, result.positions);
+        placeAll(vertexReal, threads, normalRows, mesh.normals, result.normals);
     }
     return placed;
 }
@@ -104,11 +68,11 @@ std::vector<PlacedMesh> placeMeshes(const SurfaceScene& scene, RasterReal vertex
 std::vector<ClipVertex> toClipSpace(const PlacedMesh& placed, const View& view, RasterReal vertexReal,
                                     int threads) {
     std::vector<ClipVertex> vertices(placed.positions.size());
-    transformAll(
-        vertexReal, threads, view.worldToClip, vertices.size(), [&](size_t v) { return placed.positions[v]; },
-        [&](size_t v, double x, double y, double z, double w) {
-            vertices[v] = {x, y, z, w};
-        });
+    const auto project = lightingPasses().projectPoints;
+    inTasks(vertices.size(), threads, [&](size_t begin, size_t count) {
+        project(vertexReal, view.worldToClip, std::span(placed.positions).subspan(begin, count),
+                std::span(vertices).subspan(begin, count));
+    });
     return vertices;
 }
 

@@ -1,7 +1,7 @@
 #include "lighting/latlong.h"
 
+#include "lighting/arithmetic_passes.h"
 #include "numeric/check.h"
-#include "numeric/lanes.h"
 
 namespace etalon {
 
@@ -33,7 +33,7 @@ LatLongGrid::LatLongGrid(int width, int height) {
 
 CubeMap<float> cubeFromLatLong(const Image<float>& latLong, int size, const CubeFromLatLong& options,
                                int threads) {
-    return cubeFromLatLong<Lanes<float, kLanes>>(latLong, size, options, threads);
+    return passesOf(FragmentArithmetic::fp32).cubeFromLatLong(latLong, size, options, threads);
 }
 
 }  // namespace etalon

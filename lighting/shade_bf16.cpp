@@ -3,6 +3,6 @@
 
 namespace etalon {
 
-ArithmeticPasses passesBf16() { return passesOver<Rounded<kBf16, Lanes<double>>>(); }
+ArithmeticPasses passesBf16() { return passesOver<Rounded<kBf16, Native<double>>>(); }
 
 }  // namespace etalon

@@ -3,6 +3,6 @@
 
 namespace etalon {
 
-ArithmeticPasses passesFp16() { return passesOver<Rounded<kFp16, Lanes<double>>>(); }
+ArithmeticPasses passesFp16() { return passesOver<Rounded<kFp16, Native<double>>>(); }
 
 }  // namespace etalon

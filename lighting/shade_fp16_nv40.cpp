@@ -3,6 +3,6 @@
 
 namespace etalon {
 
-ArithmeticPasses passesFp16Nv40() { return passesOver<Rounded<kFp16Nv40, Lanes<double>>>(); }
+ArithmeticPasses passesFp16Nv40() { return passesOver<Rounded<kFp16Nv40, Native<double>>>(); }
 
 }  // namespace etalon

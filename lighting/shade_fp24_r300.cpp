@@ -3,6 +3,6 @@
 
 namespace etalon {
 
-ArithmeticPasses passesFp24R300() { return passesOver<Rounded<kFp24R300, Lanes<double>>>(); }
+ArithmeticPasses passesFp24R300() { return passesOver<Rounded<kFp24R300, Native<double>>>(); }
 
 }  // namespace etalon

@@ -2,6 +2,6 @@
 
 namespace etalon {
 
-ArithmeticPasses passesFp32() { return passesOver<Lanes<float, kLanes>>(); }
+ArithmeticPasses passesFp32() { return passesOver<Native<float>>(); }
 
 }  // namespace etalon

@@ -3,6 +3,6 @@
 
 namespace etalon {
 
-ArithmeticPasses passesFp32Flush() { return passesOver<Rounded<kFp32Flush, Lanes<double>>>(); }
+ArithmeticPasses passesFp32Flush() { return passesOver<Rounded<kFp32Flush, Native<double>>>(); }
 
 }  // namespace etalon

@@ -3,6 +3,6 @@
 
 namespace etalon {
 
-ArithmeticPasses passesFp32Nv40() { return passesOver<Rounded<kFp32Nv40, Lanes<double>>>(); }
+ArithmeticPasses passesFp32Nv40() { return passesOver<Rounded<kFp32Nv40, Native<double>>>(); }
 
 }  // namespace etalon

@@ -2,6 +2,6 @@
 
 namespace etalon {
 
-ArithmeticPasses passesFp64() { return passesOver<Lanes<double>>(); }
+ArithmeticPasses passesFp64() { return passesOver<Native<double>>(); }
 
 }  // namespace etalon

@@ -1,8 +1,8 @@
 #include "lighting/tone_map.h"
 
+#include "lighting/lighting_passes.h"
 #include "numeric/check.h"
 #include "numeric/format.h"
-#include "numeric/lanes.h"
 
 namespace etalon {
 
@@ -13,7 +13,7 @@ double exposureScale(double stops) {
 }
 
 Image<uint8_t> toneMap(const Image<float>& radiance, ToneMap operation, double exposureStops, int threads) {
-    return toneMap<Lanes<float, kLanes>>(radiance, operation, exposureStops, threads);
+    return lightingPasses().toneMap(radiance, operation, exposureStops, threads);
 }
 
 }  // namespace etalon

@@ -6,6 +6,7 @@
 // libstdc++ 12, clang++ 14 and 16 drop masked assignments (where(m, v) = w leaves v unchanged) on x86-64-v4.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -13,8 +14,10 @@
 
 namespace etalon {
 
-// Bytes of the widest vector register of the target that this object is compiled for.
-#if defined(__AVX512F__)
+// Bytes of the widest vector register of the target that this object is compiled for; 0: one lane at a time.
+#if defined(ETALON_SCALAR_LANES)
+inline constexpr int kVectorBytes = 0;
+#elif defined(__AVX512F__)
 inline constexpr int kVectorBytes = 64;
 #elif defined(__AVX2__)
 inline constexpr int kVectorBytes = 32;
@@ -24,7 +27,7 @@ inline constexpr int kVectorBytes = 16;
 
 // Lanes of S that fill one vector register.
 template <class S>
-inline constexpr int kNativeLanes = kVectorBytes / static_cast<int>(sizeof(S));
+inline constexpr int kNativeLanes = std::max(1, kVectorBytes / static_cast<int>(sizeof(S)));
 
 // The width at which mixed work (float, double and integer lanes together) runs: one register of float.
 inline constexpr int kLanes = kNativeLanes<float>;
@@ -86,6 +89,11 @@ struct Lanes {
     friend M operator==(Lanes a, Lanes b) { return M(a.v == b.v); }
     friend M operator!=(Lanes a, Lanes b) { return M(a.v != b.v); }
 };
+
+// The numbers of the scalar type S that an object of this level computes side by side: lanes that fill a
+// register, or S itself where there is one lane.
+template <class S>
+using Native = std::conditional_t<kNativeLanes<S> == 1, S, Lanes<S>>;
 
 // The result of a comparison of Lanes<S, N>: all bits of a lane set (true) or none (false).
 template <class S, int N>

@@ -4,7 +4,7 @@
 
 #include "numeric/check.h"
 #include "numeric/elementary.h"
-#include "numeric/lanes.h"
+#include "raster/raster_passes.h"
 
 namespace etalon {
 
@@ -33,7 +33,7 @@ std::vector<double> gaussianWeights(int radius, double sigma) {
 }
 
 Image<float> blurGaussian(const Image<float>& image, int radius, double sigma, int threads) {
-    return blurGaussian<Lanes<float, kLanes>>(image, radius, sigma, threads);
+    return rasterPasses().blurGaussian(image, radius, sigma, threads);
 }
 
 }  // namespace etalon

@@ -1,0 +1,27 @@
+#include "lighting/lighting_passes.h"
+
+#include "numeric/check.h"
+#include "numeric/levels.h"
+
+namespace etalon {
+
+#define ETALON_DECLARE(name)                    \
+    namespace level_##name {                    \
+        const LightingPasses& lightingPasses(); \
+    }
+ETALON_FOR_EACH_LEVEL(ETALON_DECLARE)
+
+const LightingPasses& lightingPasses() {
+    switch (activeIsa()) {
+#define ETALON_CASE(name) \
+    case IsaLevel::name:  \
+        return level_##name::lightingPasses();
+        ETALON_FOR_EACH_LEVEL(ETALON_CASE)
+        default:
+            break;
+    }
+    ETALON_CHECK(false, "level {} is not built", isaName(activeIsa()));
+    __builtin_unreachable();
+}
+
+}  // namespace etalon

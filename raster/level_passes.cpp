@@ -1,0 +1,13 @@
+// Compiled once per level.
+#include "numeric/lanes.h"
+#include "raster/blur.h"
+#include "raster/raster_passes.h"
+
+namespace etalon::ETALON_LEVEL {
+
+const RasterPasses& rasterPasses() {
+    static const RasterPasses passes = {blurGaussian<Native<float>>};
+    return passes;
+}
+
+}  // namespace etalon::ETALON_LEVEL
