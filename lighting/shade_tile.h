@@ -37,7 +37,8 @@ class TileShaderOf final : public TileShader {
     using Group = std::span<const uint32_t>;  // 1 to N fragments of a bucket
     struct Weights {
         vec3 b;
-        std::array<const TriangleRecord*, N> records;
+        std::array<TriangleRecord, N> records;
+        std::array<uint32_t, N> ids;
         std::array<const PlacedMesh*, N> meshes;
     };
 
@@ -166,9 +167,10 @@ typename TileShaderOf<T>::Weights TileShaderOf<T>::weights(Group group) const {
     std::array<std::array<double, N>, 3> e, q;
     for (int i = 0; i < N; i++) {
         const Fragment& fragment = at(group, i);
-        const TriangleRecord& record = job_.target->triangles[fragment.id];
+        const TriangleRecord record = job_.target->triangle(fragment.id);
         const auto lane = static_cast<size_t>(i);
-        w.records[lane] = &record;
+        w.records[lane] = record;
+        w.ids[lane] = fragment.id;
         w.meshes[lane] = &(*job_.placed)[job_.instanceOfDraw[record.draw]];
         const WeightScale scale = weightScale(record);
         const auto edges = edgeFunctions(record);
@@ -195,15 +197,15 @@ T TileShaderOf<T>::attribute(const Weights& w, Get get) {
     constexpr double kSmallestAttribute = 0x1p-60;
     std::array<std::array<double, N>, 3> a;
     for (size_t i = 0; i < N; i++) {
-        const TriangleRecord& record = *w.records[i];
+        const TriangleRecord& record = w.records[i];
         const PlacedMesh& placed = *w.meshes[i];
         const uint32_t* index = &placed.mesh->indices[3 * size_t{record.triangle}];
         const std::array<double, 3> source = {get(placed, index[0]), get(placed, index[1]),
                                               get(placed, index[2])};
         for (size_t k = 0; k < 3; k++) {
             double value = source[record.corner[k]];
-            if (record.clipped >= 0) {
-                const auto& beta = job_.target->clippedCorners[static_cast<size_t>(record.clipped)][k];
+            if (record.clipped) {
+                const auto& beta = job_.target->barycentric(w.ids[i], k);
                 value = beta[0] * source[0] + (beta[1] * source[1] + beta[2] * source[2]);
             }
             a[k][i] = std::fabs(value) < kSmallestAttribute ? 0.0 : value;
@@ -236,7 +238,7 @@ void TileShaderOf<T>::shadeSurface(const Bucket& bucket, Group group) {
     vec3 n = constant(glm::dvec3(0)), toEye = n;
     if (needNormal) {
         const auto facing = [](const TriangleRecord& record) { return record.front ? 1.0 : -1.0; };
-        const T sign = generateNumber<T>([&](int i) { return facing(*w.records[static_cast<size_t>(i)]); });
+        const T sign = generateNumber<T>([&](int i) { return facing(w.records[static_cast<size_t>(i)]); });
         n = vec3(attribute(w, [](const PlacedMesh& m, uint32_t v) { return m.normals[v].x; }),
                  attribute(w, [](const PlacedMesh& m, uint32_t v) { return m.normals[v].y; }),
                  attribute(w, [](const PlacedMesh& m, uint32_t v) { return m.normals[v].z; }));

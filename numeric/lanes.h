@@ -2,8 +2,9 @@
 // kernel texts use. The scalar instance is Lanes<S, 1>. Every operation is the IEEE operation per lane, so
 // the number of lanes changes no bit.
 //
-// Built on the vector types that g++ and clang++ share. std::experimental::simd was tried first: with
-// libstdc++ 12, clang++ 14 and 16 drop masked assignments (where(m, v) = w leaves v unchanged) on x86-64-v4.
+// Built on the vector types that g++ and clang++ share; intrinsics only where those have no operation
+// (laneBits). std::experimental::simd was tried first: with libstdc++ 12, clang++ 14 and 16 drop masked
+// assignments (where(m, v) = w leaves v unchanged) on x86-64-v4.
 #pragma once
 
 #include <algorithm>
@@ -11,6 +12,10 @@
 #include <cstdint>
 #include <cstring>
 #include <type_traits>
+
+#if defined(__x86_64__)
+#include <immintrin.h>
+#endif
 
 namespace etalon {
 
@@ -132,11 +137,33 @@ Lanes<S, N> floorOf(Lanes<S, N> a) {
                                                : __builtin_floor(a.v[i]));
     return a;
 }
+// Bit i of the result is lane i of the mask.
+template <class S, int N>
+uint32_t laneBits(Mask<S, N> c) {
+    static_assert(N <= 32);
+#if defined(__AVX512DQ__)
+    if constexpr (sizeof(c.m) == 64 && N == 16) return _mm512_movepi32_mask(reinterpret_cast<__m512i>(c.m));
+    if constexpr (sizeof(c.m) == 64 && N == 8) return _mm512_movepi64_mask(reinterpret_cast<__m512i>(c.m));
+#endif
+#if defined(__AVX2__)
+    if constexpr (sizeof(c.m) == 32 && N == 8)
+        return static_cast<uint32_t>(_mm256_movemask_ps(reinterpret_cast<__m256>(c.m)));
+    if constexpr (sizeof(c.m) == 32 && N == 4)
+        return static_cast<uint32_t>(_mm256_movemask_pd(reinterpret_cast<__m256d>(c.m)));
+#endif
+#if defined(__SSE2__)
+    if constexpr (sizeof(c.m) == 16 && N == 4)
+        return static_cast<uint32_t>(_mm_movemask_ps(reinterpret_cast<__m128>(c.m)));
+    if constexpr (sizeof(c.m) == 16 && N == 2)
+        return static_cast<uint32_t>(_mm_movemask_pd(reinterpret_cast<__m128d>(c.m)));
+#endif
+    uint32_t bits = 0;
+    for (int i = 0; i < N; i++) bits |= (c.m[i] != 0 ? 1u : 0u) << i;
+    return bits;
+}
 template <class S, int N>
 bool anyOf(Mask<S, N> c) {
-    bool any = false;
-    for (int i = 0; i < N; i++) any = any || c.m[i] != 0;
-    return any;
+    return laneBits(c) != 0;
 }
 
 // Converts each lane to the scalar type To (value conversion, rounded to nearest-even where To is narrower;

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "raster/draw.h"
-#include "raster/rasterizer.h"
+#include "raster/projection.h"
 
 namespace etalon {
 
@@ -25,17 +25,9 @@ struct Polygon {
     int count = 0;
 };
 
-enum class ClipResult { inside, clipped, rejected };
-
-// The guard band as multiples of w: half its width in units of half the viewport (rule 2).
-struct GuardBand {
-    explicit GuardBand(const Viewport& viewport);
-    double x, y;
-};
-
-// Clips the triangle against the planes of rule 2. `polygon` is written only for ClipResult::clipped.
-// Coordinates must be finite and below 2^500 in magnitude.
-ClipResult clipTriangle(const std::array<ClipVertex, 3>& triangle, const GuardBand& guard, bool depthClamp,
-                        Polygon& polygon);
+// Clips the triangle against the planes of rule 2 that `planes` (bits of an outcode, raster/projection.h)
+// names. False when nothing is left. Coordinates must be finite and below 2^500 in magnitude.
+bool clipTriangle(const std::array<ClipVertex, 3>& triangle, const ViewportTransform& transform, int planes,
+                  Polygon& polygon);
 
 }  // namespace etalon

@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "raster/projection.h"
+
 namespace etalon {
 namespace {
 
-constexpr double kSmallestDepth = 0x1p-70;
-constexpr double kLargestDepth = 0x1p100;
+constexpr double kSmallestDepth = Projection<double>::kSmallestDepth;
 
 // The unit of the constant bias: the smallest step of a UNORM format, or of a float near the largest depth.
 double biasUnit(DepthFormat format, double largest) {
@@ -25,18 +26,8 @@ double biasUnit(DepthFormat format, double largest) {
 
 }  // namespace
 
-std::array<double, 3> vertexDepths(const TriangleRecord& record, RasterReal real) {
-    std::array<double, 3> z;
-    for (size_t i = 0; i < 3; i++) {
-        z[i] = std::clamp(record.z[i], -kLargestDepth, kLargestDepth);
-        if (real == RasterReal::fp32) z[i] = static_cast<float>(z[i]);
-        if (std::fabs(z[i]) < kSmallestDepth) z[i] = 0;
-    }
-    return z;
-}
-
-double depthBias(const DepthBias& bias, DepthFormat format, const TriangleRecord& record,
-                 const std::array<double, 3>& z, int subpixelBits) {
+double depthBias(const DepthBias& bias, DepthFormat format, const TriangleRecord& record, int subpixelBits) {
+    const std::array<double, 3>& z = record.z;
     if (bias.constant == 0 && bias.slopeScale == 0) return 0;
     const auto x = [&](size_t i) {
         return static_cast<double>(int64_t{record.x_subpx[i]} - record.x_subpx[0]);

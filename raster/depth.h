@@ -46,12 +46,7 @@ Lanes<int32_t, N> storedDepth(DepthFormat format, DepthRounding rounding, Lanes<
     return convertLanes<int32_t>(kernels.unormDepth(convertLanes<double>(z), Wide(levels)));
 }
 
-// The vertex depths z_i of rule 5, as the raster arithmetic has them.
-std::array<double, 3> vertexDepths(const TriangleRecord& record, RasterReal real);
-
-// The bias of rule 7 for a triangle record with the vertex depths z, in depth units; 0 for the default
-// DepthBias.
-double depthBias(const DepthBias& bias, DepthFormat format, const TriangleRecord& record,
-                 const std::array<double, 3>& z, int subpixelBits);
+// The bias of rule 7 for a triangle, in depth units; 0 for the default DepthBias.
+double depthBias(const DepthBias& bias, DepthFormat format, const TriangleRecord& record, int subpixelBits);
 
 }  // namespace etalon

@@ -33,7 +33,7 @@ void TileFragments::collect(const RenderTarget& target, const PixelRectangle& re
                 if (f < fragments.size()) continue;
                 Fragment fragment{x, y, id, (x << n) + (1 << (n - 1)), (y << n) + (1 << (n - 1))};
                 if (samples > 1 && id != kNoTriangle &&
-                    !isInside(target.triangles[id], fragment.x_subpx, fragment.y_subpx)) {
+                    !isInside(target.triangle(id), fragment.x_subpx, fragment.y_subpx)) {
                     const auto& position = positions[static_cast<size_t>(s)];
                     fragment.x_subpx = (x << n) + ((position[0] << n) >> 4);
                     fragment.y_subpx = (y << n) + ((position[1] << n) >> 4);

@@ -1,41 +1,33 @@
 #include "raster/rasterizer.h"
 
 #include <algorithm>
-#include <memory>
-#include <mutex>
+#include <atomic>
 
 #include "numeric/check.h"
 #include "numeric/parallel.h"
-#include "raster/setup.h"
-#include "raster/tile.h"
+#include "raster/raster_scratch.h"
 
 namespace etalon {
 namespace {
 
+constexpr size_t kVerticesPerTask = 8192;
 constexpr size_t kTrianglesPerChunk = 4096;
+// Chunks grow beyond this, so that the counts of each chunk and tile stay small beside the images.
+constexpr size_t kMaxChunkCounts = size_t{1} << 23;
 
-struct Chunk {
+// A part of a draw's vertices or triangles.
+struct Part {
     uint32_t draw;
     size_t first, last;
 };
 
-// Cuts the draws into chunks of triangles; their order is the submission order.
-std::vector<Chunk> cutIntoChunks(std::span<const Draw> draws) {
-    std::vector<Chunk> chunks;
-    for (size_t d = 0; d < draws.size(); d++) {
-        ETALON_CHECK(draws[d].indices.size() % 3 == 0, "draw {} has {} indices", d, draws[d].indices.size());
-        const size_t triangles = draws[d].indices.size() / 3;
-        for (size_t first = 0; first < triangles; first += kTrianglesPerChunk)
-            chunks.push_back(
-                {static_cast<uint32_t>(d), first, std::min(first + kTrianglesPerChunk, triangles)});
-    }
-    return chunks;
-}
-
-void checkIndices(const Draw& draw, const Chunk& chunk) {
-    for (size_t i = 3 * chunk.first; i < 3 * chunk.last; i++)
-        ETALON_CHECK(draw.indices[i] < draw.vertices.size(), "index {} of draw {} is {}, vertices: {}", i,
-                     chunk.draw, draw.indices[i], draw.vertices.size());
+template <class Count>
+std::vector<Part> cut(std::span<const Draw> draws, size_t perPart, Count count) {
+    std::vector<Part> parts;
+    for (size_t d = 0; d < draws.size(); d++)
+        for (size_t first = 0, last = count(draws[d]); first < last; first += perPart)
+            parts.push_back({static_cast<uint32_t>(d), first, std::min(first + perPart, last)});
+    return parts;
 }
 
 void add(RasterStatistics& sum, const RasterStatistics& part) {
@@ -45,101 +37,151 @@ void add(RasterStatistics& sum, const RasterStatistics& part) {
     sum.clipped += part.clipped;
     sum.zeroArea += part.zeroArea;
     sum.culled += part.culled;
+    sum.missed += part.missed;
     sum.records += part.records;
 }
 
-// Sets the triangles up in parallel and appends their records to the target in submission order.
-RasterStatistics setUp(RenderTarget& target, const Viewport& viewport, std::span<const Draw> draws,
-                       int threads) {
-    const std::vector<Chunk> chunks = cutIntoChunks(draws);
-    std::vector<TriangleSetup> setups(chunks.size(), TriangleSetup(viewport, target.format.subpixelBits));
-    parallelFor(chunks.size(), threads, [&](size_t c) {
-        const Draw& draw = draws[chunks[c].draw];
-        checkIndices(draw, chunks[c]);
-        setups[c].process(draw, target.drawCount + chunks[c].draw, chunks[c].first, chunks[c].last);
-    });
-    RasterStatistics statistics;
-    for (TriangleSetup& setup : setups) {
-        const auto clippedBase = static_cast<int32_t>(target.clippedCorners.size());
-        for (TriangleRecord& record : setup.records)
-            if (record.clipped >= 0) record.clipped += clippedBase;
-        ETALON_CHECK(target.triangles.size() + setup.records.size() < kNoTriangle,
-                     "more than 2^32 - 1 triangles");
-        target.triangles.insert(target.triangles.end(), setup.records.begin(), setup.records.end());
-        target.clippedCorners.insert(target.clippedCorners.end(), setup.clippedCorners.begin(),
-                                     setup.clippedCorners.end());
-        add(statistics, setup.statistics);
-        setup = TriangleSetup(viewport, target.format.subpixelBits);
-    }
-    return statistics;
-}
-
-struct Tiles {
-    int size, firstX, firstY, columns, rows;
-};
-
-Tiles tilesOf(const Viewport& viewport, int tileSize) {
-    const int firstX = viewport.x / tileSize, firstY = viewport.y / tileSize;
-    const int lastX = (viewport.x + viewport.width - 1) / tileSize;
-    const int lastY = (viewport.y + viewport.height - 1) / tileSize;
-    return {tileSize, firstX, firstY, lastX - firstX + 1, lastY - firstY + 1};
-}
-
-// Lists for each tile the records whose bounding box touches it, in submission order. A group is listed once,
-// by its first record, in every tile that one of its pieces touches.
-std::vector<std::vector<uint32_t>> bin(const RenderTarget& target, const Tiles& tiles, size_t firstRecord) {
-    std::vector<std::vector<uint32_t>> lists(static_cast<size_t>(tiles.columns) *
-                                             static_cast<size_t>(tiles.rows));
-    const int n = target.format.subpixelBits;
-    for (size_t r = firstRecord; r < target.triangles.size();) {
-        const size_t count = std::max<size_t>(target.triangles[r].groupSize, 1);
-        int32_t xMin = INT32_MAX, xMax = INT32_MIN, yMin = INT32_MAX, yMax = INT32_MIN;
-        for (size_t k = r; k < r + count; k++) {
-            for (size_t i = 0; i < 3; i++) {
-                xMin = std::min(xMin, target.triangles[k].x_subpx[i]);
-                xMax = std::max(xMax, target.triangles[k].x_subpx[i]);
-                yMin = std::min(yMin, target.triangles[k].y_subpx[i]);
-                yMax = std::max(yMax, target.triangles[k].y_subpx[i]);
-            }
-        }
-        const auto tileOf = [&](int32_t subpx, int first, int last) {
-            const int pixel = subpx >> n;
-            return std::clamp(pixel < 0 ? -1 : pixel / tiles.size - first, -1, last);
-        };
-        const int x0 = std::max(tileOf(xMin, tiles.firstX, tiles.columns), 0);
-        const int x1 = std::min(tileOf(xMax, tiles.firstX, tiles.columns), tiles.columns - 1);
-        const int y0 = std::max(tileOf(yMin, tiles.firstY, tiles.rows), 0);
-        const int y1 = std::min(tileOf(yMax, tiles.firstY, tiles.rows), tiles.rows - 1);
-        for (int y = y0; y <= y1; y++)
-            for (int x = x0; x <= x1; x++)
-                lists[static_cast<size_t>(y) * static_cast<size_t>(tiles.columns) + static_cast<size_t>(x)]
-                    .push_back(static_cast<uint32_t>(r));
-        r += count;
-    }
-    return lists;
-}
-
-// Keeps one TileRasterizer per thread that is at work, so that buffers are reused.
-class TileRasterizerPool {
+// One call of rasterize; each step fills what later ones read. The parts' order is the submission order, and
+// nothing depends on how the work was cut.
+class Rasterization {
   public:
-    explicit TileRasterizerPool(int tileSize) : tileSize_(tileSize) {}
+    Rasterization(RenderTarget& target, const Viewport& viewport, std::span<const Draw> draws,
+                  const RasterOptions& options)
+        : target_(target),
+          draws_(draws),
+          options_(options),
+          scratch_(target.scratch.get()),
+          transform_(viewport, target.format.subpixelBits, target.format.real),
+          grid_(viewport, options.tileSize, target.format) {}
 
-    std::unique_ptr<TileRasterizer> take() {
-        const std::lock_guard lock(mutex_);
-        if (free_.empty()) return std::make_unique<TileRasterizer>(tileSize_);
-        auto rasterizer = std::move(free_.back());
-        free_.pop_back();
-        return rasterizer;
-    }
-    void giveBack(std::unique_ptr<TileRasterizer> rasterizer) {
-        const std::lock_guard lock(mutex_);
-        free_.push_back(std::move(rasterizer));
+    RasterStatistics run() {
+        projectAll();
+        setUpAll();
+        listTriangles();
+        drawTiles();
+        target_.drawCount += static_cast<uint32_t>(draws_.size());
+        return statistics_;
     }
 
   private:
-    int tileSize_;
-    std::mutex mutex_;
-    std::vector<std::unique_ptr<TileRasterizer>> free_;
+    void projectAll() {
+        size_t count = 0;
+        const size_t base = target_.vertices.size();
+        for (const Draw& draw : draws_) {
+            ETALON_CHECK(draw.indices.size() % 3 == 0, "draw {} has {} indices", inputs_.size(),
+                         draw.indices.size());
+            inputs_.push_back({&draw,
+                               {},
+                               {},
+                               target_.drawCount + static_cast<uint32_t>(inputs_.size()),
+                               static_cast<uint32_t>(base + count)});
+            count += draw.vertices.size();
+        }
+        ETALON_CHECK(base + count < UINT32_MAX, "more than 2^32 - 1 vertices");
+        target_.vertices.resize(base + count);
+        scratch_.outcodes.resize(count);
+        const std::vector<Part> parts =
+            cut(draws_, kVerticesPerTask, [](const Draw& draw) { return draw.vertices.size(); });
+        const auto project = rasterPasses().projectVertices;
+        parallelFor(parts.size(), options_.threads, [&](size_t p) {
+            const Part& part = parts[p];
+            const size_t first = inputs_[part.draw].firstVertex + part.first, size = part.last - part.first;
+            project(transform_, draws_[part.draw].vertices.subspan(part.first, size),
+                    std::span(target_.vertices).subspan(first, size),
+                    std::span(scratch_.outcodes).subspan(first - base, size));
+        });
+        for (DrawInput& input : inputs_) {
+            const size_t size = input.draw->vertices.size();
+            input.projected = std::span(target_.vertices).subspan(input.firstVertex, size);
+            input.outcodes = std::span(scratch_.outcodes).subspan(input.firstVertex - base, size);
+        }
+    }
+
+    void setUpAll() {
+        size_t total = 0;
+        for (const Draw& draw : draws_) total += draw.indices.size() / 3;
+        const size_t perChunk = std::max(kTrianglesPerChunk, total * grid_.count() / kMaxChunkCounts);
+        chunks_ = cut(draws_, perChunk, [](const Draw& draw) { return draw.indices.size() / 3; });
+        if (scratch_.setups.size() < chunks_.size()) scratch_.setups.resize(chunks_.size());
+        parallelFor(chunks_.size(), options_.threads, [&](size_t c) {
+            scratch_.setups[c].begin(transform_, grid_);
+            scratch_.setups[c].process(inputs_[chunks_[c].draw], chunks_[c].first, chunks_[c].last);
+        });
+    }
+
+    // Moves the chunks' triangles to the target and lists them for each tile, in submission order.
+    void listTriangles() {
+        // Where each chunk's triangles and clipped vertices go, and its part of each tile's list.
+        const size_t tiles = grid_.count();
+        std::vector<size_t> firstTriangle;
+        std::vector<uint32_t> firstClipped;
+        size_t triangles = target_.triangles.size();
+        std::vector<uint32_t> listedOfTile(tiles, 0);
+        for (size_t c = 0; c < chunks_.size(); c++) {
+            TriangleSetup& setup = scratch_.setups[c];
+            firstTriangle.push_back(triangles);
+            triangles += setup.triangles.size();
+            firstClipped.push_back(static_cast<uint32_t>(target_.clippedVertices.size()));
+            target_.clippedVertices.insert(target_.clippedVertices.end(), setup.clippedVertices.begin(),
+                                           setup.clippedVertices.end());
+            add(statistics_, setup.statistics);
+            for (size_t t = 0; t < tiles; t++) {
+                const uint32_t count = setup.countOfTile[t];
+                setup.countOfTile[t] = listedOfTile[t];
+                listedOfTile[t] += count;
+            }
+        }
+        ETALON_CHECK(triangles < kNoTriangle && target_.clippedVertices.size() < UINT32_MAX,
+                     "more than 2^32 - 1 triangles");
+        target_.triangles.resize(triangles);
+        scratch_.firstListed.assign(1, 0);
+        for (size_t t = 0; t < tiles; t++)
+            scratch_.firstListed.push_back(scratch_.firstListed[t] + listedOfTile[t]);
+        scratch_.listed.resize(scratch_.firstListed[tiles]);
+
+        parallelFor(chunks_.size(), options_.threads, [&](size_t c) {
+            TriangleSetup& setup = scratch_.setups[c];
+            for (size_t k = 0; k < setup.triangles.size(); k++) {
+                StoredTriangle& triangle = target_.triangles[firstTriangle[c] + k];
+                triangle = setup.triangles[k];
+                if (triangle.clipped)
+                    for (uint32_t& v : triangle.vertex) v += firstClipped[c];
+                const TileBox& box = setup.boxes[k];
+                for (int y = box.y0; y <= box.y1; y++)
+                    for (int x = box.x0; x <= box.x1; x++) {
+                        const size_t tile = grid_.index(x, y);
+                        scratch_.listed[scratch_.firstListed[tile] + setup.countOfTile[tile]++] =
+                            static_cast<uint32_t>(firstTriangle[c] + k);
+                    }
+            }
+        });
+    }
+
+    void drawTiles() {
+        UsedPlanes used;
+        for (const Draw& draw : draws_) {
+            used.id = used.id || draw.state.idWrite;
+            used.stencil = used.stencil || draw.state.stencil.enabled;
+        }
+        parallelFor(grid_.count(), options_.threads, [&](size_t t) {
+            const size_t first = scratch_.firstListed[t], size = scratch_.firstListed[t + 1] - first;
+            if (size == 0) return;
+            auto rasterizer = scratch_.take();
+            rasterizer->run(target_, grid_.rectangle(t), draws_, target_.drawCount, used,
+                            std::span(scratch_.listed).subspan(first, size));
+            scratch_.giveBack(std::move(rasterizer));
+        });
+    }
+
+    RenderTarget& target_;
+    std::span<const Draw> draws_;
+    const RasterOptions& options_;
+    RasterScratch& scratch_;
+    ViewportTransform transform_;
+    TileGrid grid_;
+    std::vector<DrawInput> inputs_;
+    std::vector<Part> chunks_;
+    RasterStatistics statistics_;
 };
 
 }  // namespace
@@ -151,30 +193,20 @@ RasterStatistics rasterize(RenderTarget& target, const Viewport& viewport, std::
                      viewport.y <= target.height() - viewport.height,
                  "viewport {},{} {}x{} of a {}x{} target", viewport.x, viewport.y, viewport.width,
                  viewport.height, target.width(), target.height());
-    ETALON_CHECK(options.tileSize >= 8 && options.tileSize <= 256 && options.tileSize % kBlockSize == 0,
+    ETALON_CHECK(options.tileSize >= 8 && options.tileSize <= 256 && options.tileSize % 8 == 0,
                  "tileSize = {}", options.tileSize);
+    return Rasterization(target, viewport, draws, options).run();
+}
 
-    // Set up, bin, then replay each tile.
-    const size_t firstRecord = target.triangles.size();
-    const RasterStatistics statistics = setUp(target, viewport, draws, options.threads);
-    const Tiles tiles = tilesOf(viewport, options.tileSize);
-    const auto lists = bin(target, tiles, firstRecord);
-    TileRasterizerPool pool(options.tileSize);
-    parallelFor(lists.size(), options.threads, [&](size_t t) {
-        const int tileX = (tiles.firstX + static_cast<int>(t) % tiles.columns) * tiles.size;
-        const int tileY = (tiles.firstY + static_cast<int>(t) / tiles.columns) * tiles.size;
-        const TileRectangle rectangle = {tileX,
-                                         tileY,
-                                         std::max(tileX, viewport.x),
-                                         std::max(tileY, viewport.y),
-                                         std::min(tileX + tiles.size, viewport.x + viewport.width),
-                                         std::min(tileY + tiles.size, viewport.y + viewport.height)};
-        auto rasterizer = pool.take();
-        rasterizer->run(target, rectangle, draws, target.drawCount, lists[t]);
-        pool.giveBack(std::move(rasterizer));
-    });
-    target.drawCount += static_cast<uint32_t>(draws.size());
-    return statistics;
+RasterScratchHolder::RasterScratchHolder() = default;
+RasterScratchHolder::~RasterScratchHolder() = default;
+RasterScratchHolder::RasterScratchHolder(const RasterScratchHolder&) {}
+RasterScratchHolder& RasterScratchHolder::operator=(const RasterScratchHolder&) { return *this; }
+RasterScratchHolder::RasterScratchHolder(RasterScratchHolder&&) noexcept = default;
+RasterScratchHolder& RasterScratchHolder::operator=(RasterScratchHolder&&) noexcept = default;
+RasterScratch& RasterScratchHolder::get() {
+    if (!scratch_) scratch_ = std::make_unique<RasterScratch>();
+    return *scratch_;
 }
 
 }  // namespace etalon

@@ -27,14 +27,15 @@ struct RasterStatistics {
     uint64_t clipped = 0;           // cut by at least one plane
     uint64_t zeroArea = 0;          // after snapping
     uint64_t culled = 0;            // by facing
-    uint64_t records = 0;           // triangles and pieces that were drawn
+    uint64_t missed = 0;   // whole triangles between the samples: their box holds none of the viewport's
+    uint64_t records = 0;  // triangles and pieces that were drawn
 
     friend bool operator==(const RasterStatistics&, const RasterStatistics&) = default;
 };
 
-// Draws the triangles of all draws in order into the part of the target inside the viewport. Ids refer to
-// target.triangles, which is appended to. Throws PreconditionError for an index out of range, a viewport that
-// leaves the target, or options out of range.
+// Draws the triangles of all draws in order into the part of the target inside the viewport. Ids are those of
+// target.triangle(id), and go on from earlier calls. Throws PreconditionError for an index out of range, a
+// viewport that leaves the target, or options out of range.
 RasterStatistics rasterize(RenderTarget& target, const Viewport& viewport, std::span<const Draw> draws,
                            const RasterOptions& options = {});
 

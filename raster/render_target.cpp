@@ -49,8 +49,39 @@ RenderTarget::RenderTarget(int width, int height, const RenderTargetFormat& targ
     samplePositions(format.samples);
     ETALON_CHECK(format.subpixelBits >= 4 && format.subpixelBits <= 8, "subpixelBits = {}",
                  format.subpixelBits);
+    clear();
+}
+
+void RenderTarget::clear() {
     depth.fill(farthestDepth(format.depth));
+    stencil.fill(0);
     id.fill(kNoTriangle);
+    drawCount = 0;
+    triangles.clear();
+    vertices.clear();
+    clippedVertices.clear();
+}
+
+TriangleRecord RenderTarget::triangle(uint32_t triangleId) const {
+    const StoredTriangle& stored = triangles[triangleId];
+    TriangleRecord record{};
+    for (size_t i = 0; i < 3; i++) {
+        const ProjectedVertex& v = vertex(stored, i);
+        record.x_subpx[i] = v.x_subpx;
+        record.y_subpx[i] = v.y_subpx;
+        record.z[i] = v.z;
+        record.reciprocalW[i] = v.reciprocalW;
+    }
+    const auto difference = [](const std::array<int32_t, 3>& c, size_t i) { return int64_t{c[i]} - c[0]; };
+    record.area = difference(record.x_subpx, 1) * difference(record.y_subpx, 2) -
+                  difference(record.x_subpx, 2) * difference(record.y_subpx, 1);
+    record.draw = stored.draw;
+    record.triangle = stored.triangle;
+    record.corner = stored.exchanged ? std::array<uint8_t, 3>{0, 2, 1} : std::array<uint8_t, 3>{0, 1, 2};
+    record.front = stored.front;
+    record.reversed = stored.reversed;
+    record.clipped = stored.clipped;
+    return record;
 }
 
 }  // namespace etalon

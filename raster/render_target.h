@@ -3,10 +3,12 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "raster/draw.h"
 #include "raster/image.h"
+#include "raster/uninitialized_vector.h"
 
 namespace etalon {
 
@@ -17,22 +19,40 @@ enum class RasterReal : uint8_t { fp32, fp64 };        // arithmetic of depth in
 // Id of a sample that no triangle covers.
 inline constexpr uint32_t kNoTriangle = 0xffffffffu;
 
-// A triangle (or piece of a clipped one) after rule 3: what depth, attributes and shading need.
+// A vertex after rule 3.
+struct ProjectedVertex {
+    int32_t x_subpx, y_subpx;
+    double z;            // the z_i of rule 5
+    double reciprocalW;  // 1 / w
+};
+
+// A vertex that clipping made or kept, and its barycentric coordinates in the source triangle.
+struct ClippedVertex {
+    ProjectedVertex projected;
+    std::array<double, 3> barycentric;
+};
+
+// A triangle (or piece of a clipped one) as it is kept: its vertices by number, orientation made positive.
+struct StoredTriangle {
+    std::array<uint32_t, 3> vertex;  // of RenderTarget::vertices, or of clippedVertices
+    uint32_t draw, triangle;         // which triangle of which draw
+    uint8_t groupSize;  // > 0: the first of the groupSize pieces of a polygon with mixed signs (rule 2)
+    bool front : 1;     // facing
+    bool reversed : 1;  // a piece whose sign is opposite to its polygon's (rule 2)
+    bool clipped : 1;
+    bool exchanged : 1;  // vertices 1 and 2 were exchanged
+};
+
+// The same with what depth, attributes and shading need.
 struct TriangleRecord {
     std::array<int32_t, 3> x_subpx, y_subpx;  // snapped; orientation made positive
     int64_t area;                             // A > 0: twice the area in subpixels
-    std::array<double, 3> z;                  // z / w
+    std::array<double, 3> z;                  // the z_i of rule 5
     std::array<double, 3> reciprocalW;        // 1 / w
-    uint32_t draw, triangle;                  // which triangle of which draw
+    uint32_t draw, triangle;
     std::array<uint8_t, 3> corner;  // record vertex i is the source vertex corner[i], when not clipped
-    bool front;                     // facing
-    bool reversed;                  // a piece whose sign is opposite to its polygon's (rule 2)
-    uint8_t groupSize;              // > 0: the first of the groupSize pieces of a polygon with mixed signs
-    int32_t clipped;                // -1, or the index of its entry in RenderTarget::clippedCorners
+    bool front, reversed, clipped;
 };
-
-// For the three vertices of a clipped piece: their barycentric coordinates in the source triangle.
-using ClippedCorners = std::array<std::array<double, 3>, 3>;
 
 struct RenderTargetFormat {
     int samples = 1;       // 1, 4 or 16
@@ -42,21 +62,56 @@ struct RenderTargetFormat {
     RasterReal real = RasterReal::fp32;
 };
 
+// Memory that rasterize keeps from call to call; a copied target starts with none.
+class RasterScratch;
+class RasterScratchHolder {
+  public:
+    RasterScratchHolder();
+    ~RasterScratchHolder();
+    RasterScratchHolder(const RasterScratchHolder&);
+    RasterScratchHolder& operator=(const RasterScratchHolder&);
+    RasterScratchHolder(RasterScratchHolder&&) noexcept;
+    RasterScratchHolder& operator=(RasterScratchHolder&&) noexcept;
+    RasterScratch& get();
+
+  private:
+    std::unique_ptr<RasterScratch> scratch_;
+};
+
 // width x height pixels with `samples` planes each of depth (stored integers, rule 6), stencil and triangle
-// id (an index into `triangles`, or kNoTriangle). Cleared to the farthest depth, stencil 0 and kNoTriangle.
-struct RenderTarget {
+// id (which triangle(id) explains, or kNoTriangle). Cleared to the farthest depth, stencil 0 and kNoTriangle.
+class RenderTarget {
+  public:
     RenderTarget(int width, int height, const RenderTargetFormat& targetFormat);
 
     int width() const { return id.width(); }
     int height() const { return id.height(); }
 
+    // Back to the state after construction; keeps the memory.
+    void clear();
+
+    // Triangles and pieces that were drawn; their ids are 0 .. triangleCount() - 1.
+    size_t triangleCount() const { return triangles.size(); }
+    TriangleRecord triangle(uint32_t triangleId) const;
+    // For a clipped triangle: the barycentric coordinates of its vertex 0, 1 or 2 in the source triangle.
+    const std::array<double, 3>& barycentric(uint32_t triangleId, size_t corner) const {
+        return clippedVertices[triangles[triangleId].vertex[corner]].barycentric;
+    }
+    const ProjectedVertex& vertex(const StoredTriangle& t, size_t i) const {
+        return t.clipped ? clippedVertices[t.vertex[i]].projected : vertices[t.vertex[i]];
+    }
+
     RenderTargetFormat format;
     Image<uint32_t> depth;
     Image<uint8_t> stencil;
     Image<uint32_t> id;
-    std::vector<TriangleRecord> triangles;
-    std::vector<ClippedCorners> clippedCorners;
-    uint32_t drawCount = 0;  // draws so far; TriangleRecord::draw counts over all calls of rasterize
+    uint32_t drawCount = 0;  // draws so far; StoredTriangle::draw counts over all calls of rasterize
+
+    // What ids stand for; written by rasterize.
+    UninitializedVector<StoredTriangle> triangles;
+    UninitializedVector<ProjectedVertex> vertices;
+    std::vector<ClippedVertex> clippedVertices;
+    RasterScratchHolder scratch;
 };
 
 // The stored integer of depth 1 (the clear value).

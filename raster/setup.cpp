@@ -1,29 +1,32 @@
 #include "raster/setup.h"
 
-#include <algorithm>
-#include <cmath>
-
 namespace etalon {
 namespace {
 
-constexpr double kMaxClipCoordinate = 0x1p500;
-constexpr double kGuardBandHalfWidth_px = 65536.0;
+using Kernel = Projection<double>;
 
-// False for NaN and for magnitudes that clipping could overflow with. Negated on purpose: NaN fails every
-// test.
-bool isUsable(double c) { return std::fabs(c) < kMaxClipCoordinate; }
-
-bool isUsable(const ClipVertex& p) {
-    return isUsable(p.x) && isUsable(p.y) && isUsable(p.z) && isUsable(p.w);
+// Twice the signed area in subpixels; negative is counter-clockwise on the screen.
+int64_t signedArea(const ProjectedVertex& a, const ProjectedVertex& b, const ProjectedVertex& c) {
+    return (int64_t{b.x_subpx} - a.x_subpx) * (int64_t{c.y_subpx} - a.y_subpx) -
+           (int64_t{c.x_subpx} - a.x_subpx) * (int64_t{b.y_subpx} - a.y_subpx);
 }
 
-// Adding 0 turns -0 into +0 and leaves every other value.
-ClipVertex withoutNegativeZero(const ClipVertex& p) { return {p.x + 0.0, p.y + 0.0, p.z + 0.0, p.w + 0.0}; }
+bool isFront(int64_t area, const DrawState& state) { return (area < 0) != state.frontIsClockwise; }
 
-// Nearest whole number, ties to even, for |v| < 2^51: the sum with 1.5 * 2^52 has no fraction bits.
-int32_t roundEven(double v) {
-    constexpr double kToWhole = 6755399441055744.0;
-    return static_cast<int32_t>((v + kToWhole) - kToWhole);
+ProjectedVertex project(const ClipVertex& v, const ViewportTransform& transform) {
+    const Kernel::vec4 p(v.x, v.y, v.z, v.w);
+    return {static_cast<int32_t>(Kernel::snapX(p, transform)),
+            static_cast<int32_t>(Kernel::snapY(p, transform)), Kernel::depth(p, transform), 1.0 / v.w};
+}
+
+// Orientation made positive.
+StoredTriangle storedTriangle(std::array<uint32_t, 3> vertex, int64_t area, bool front) {
+    StoredTriangle t{};
+    t.exchanged = area < 0;
+    if (t.exchanged) std::swap(vertex[1], vertex[2]);
+    t.vertex = vertex;
+    t.front = front;
+    return t;
 }
 
 }  // namespace
@@ -40,44 +43,41 @@ std::array<EdgeFunction, 3> edgeFunctions(const TriangleRecord& record) {
     return edges;
 }
 
-TriangleSetup::TriangleSetup(const Viewport& viewport, int subpixelBits)
-    : guard_(viewport),
-      centreX_px_(viewport.x + viewport.width / 2.0),
-      centreY_px_(viewport.y + viewport.height / 2.0),
-      halfWidth_px_(viewport.width / 2.0),
-      halfHeight_px_(viewport.height / 2.0),
-      subpixels_(static_cast<double>(1 << subpixelBits)) {}
+void TriangleSetup::begin(const ViewportTransform& transform, const TileGrid& grid) {
+    transform_ = &transform;
+    grid_ = &grid;
+    triangles.clear();
+    boxes.clear();
+    clippedVertices.clear();
+    countOfTile.assign(grid.count(), 0);
+    statistics = {};
+}
 
-void TriangleSetup::process(const Draw& draw, uint32_t drawIndex, size_t first, size_t last) {
+void TriangleSetup::process(const DrawInput& input, size_t first, size_t last) {
+    const DrawState& state = input.draw->state;
+    const int planes = state.depthClamp ? ~kDepthPlanes : ~0;
     for (size_t t = first; t < last; t++) {
-        std::array<ClipVertex, 3> triangle;
-        for (size_t i = 0; i < 3; i++) triangle[i] = draw.vertices[draw.indices[3 * t + i]];
-        addTriangle(triangle, draw.state, drawIndex, static_cast<uint32_t>(t));
+        std::array<uint32_t, 3> corners;
+        for (size_t i = 0; i < 3; i++) {
+            corners[i] = input.draw->indices[3 * t + i];
+            ETALON_CHECK(corners[i] < input.projected.size(), "index {} of draw {} is {}, vertices: {}",
+                         3 * t + i, input.number, corners[i], input.projected.size());
+        }
+        const int code0 = input.outcodes[corners[0]] & planes, code1 = input.outcodes[corners[1]] & planes,
+                  code2 = input.outcodes[corners[2]] & planes;
+        const int outsideAny = code0 | code1 | code2;
+        if (outsideAny == 0) {
+            addTriangle(input, static_cast<uint32_t>(t), corners);
+        } else if ((outsideAny & kUnusableVertex) != 0) {
+            statistics.droppedNonFinite++;
+        } else if ((code0 & code1 & code2) != 0) {
+            statistics.rejected++;
+        } else {
+            addClipped(input, static_cast<uint32_t>(t), corners, outsideAny);
+        }
     }
+    statistics.triangles += last - first;
 }
-
-TriangleSetup::SnappedVertex TriangleSetup::snap(const ClipVertex& p) const {
-    const double x_px = p.x / p.w * halfWidth_px_ + centreX_px_;
-    const double y_px = p.y / p.w * -halfHeight_px_ + centreY_px_;
-    const double x_guarded =
-        std::clamp(x_px, centreX_px_ - kGuardBandHalfWidth_px, centreX_px_ + kGuardBandHalfWidth_px);
-    const double y_guarded =
-        std::clamp(y_px, centreY_px_ - kGuardBandHalfWidth_px, centreY_px_ + kGuardBandHalfWidth_px);
-    return {roundEven(x_guarded * subpixels_), roundEven(y_guarded * subpixels_), p.z / p.w, 1.0 / p.w};
-}
-
-namespace {
-
-// Twice the signed area in subpixels; negative is counter-clockwise on the screen.
-template <class V>
-int64_t signedArea(const V& a, const V& b, const V& c) {
-    return (int64_t{b.x_subpx} - a.x_subpx) * (int64_t{c.y_subpx} - a.y_subpx) -
-           (int64_t{c.x_subpx} - a.x_subpx) * (int64_t{b.y_subpx} - a.y_subpx);
-}
-
-bool isFront(int64_t area, const DrawState& state) { return (area < 0) != state.frontIsClockwise; }
-
-}  // namespace
 
 // Also counts what is culled.
 bool TriangleSetup::isCulled(int64_t area, const DrawState& state) {
@@ -90,63 +90,54 @@ bool TriangleSetup::isCulled(int64_t area, const DrawState& state) {
     return culled;
 }
 
-TriangleRecord TriangleSetup::makeRecord(const std::array<SnappedVertex, 3>& v, int64_t area,
-                                         bool front) const {
-    TriangleRecord record{};
-    const std::array<uint8_t, 3> order =
-        area > 0 ? std::array<uint8_t, 3>{0, 1, 2} : std::array<uint8_t, 3>{0, 2, 1};
-    for (size_t i = 0; i < 3; i++) {
-        const SnappedVertex& vertex = v[order[i]];
-        record.x_subpx[i] = vertex.x_subpx;
-        record.y_subpx[i] = vertex.y_subpx;
-        record.z[i] = vertex.z;
-        record.reciprocalW[i] = vertex.reciprocalW;
+void TriangleSetup::addTriangle(const DrawInput& input, uint32_t index,
+                                const std::array<uint32_t, 3>& corners) {
+    const ProjectedVertex &a = input.projected[corners[0]], &b = input.projected[corners[1]],
+                          &c = input.projected[corners[2]];
+    const int64_t area = signedArea(a, b, c);
+    if (isCulled(area, input.draw->state)) return;
+    const TileBox box = grid_->tilesOf(
+        std::min({a.x_subpx, b.x_subpx, c.x_subpx}), std::min({a.y_subpx, b.y_subpx, c.y_subpx}),
+        std::max({a.x_subpx, b.x_subpx, c.x_subpx}), std::max({a.y_subpx, b.y_subpx, c.y_subpx}));
+    if (box.x0 > box.x1) {
+        statistics.missed++;
+        return;
     }
-    record.corner = order;
-    record.area = area > 0 ? area : -area;
-    record.front = front;
-    record.clipped = -1;
-    return record;
-}
-
-void TriangleSetup::addTriangle(const std::array<ClipVertex, 3>& source, const DrawState& state,
-                                uint32_t draw, uint32_t index) {
-    statistics.triangles++;
-    std::array<ClipVertex, 3> triangle;
-    for (size_t i = 0; i < 3; i++) {
-        if (!isUsable(source[i])) {
-            statistics.droppedNonFinite++;
-            return;
-        }
-        triangle[i] = withoutNegativeZero(source[i]);
-    }
-    Polygon polygon;
-    switch (clipTriangle(triangle, guard_, state.depthClamp, polygon)) {
-        case ClipResult::rejected:
-            statistics.rejected++;
-            return;
-        case ClipResult::clipped:
-            statistics.clipped++;
-            addPolygon(polygon, state, draw, index);
-            return;
-        case ClipResult::inside:
-            break;
-    }
-    const std::array<SnappedVertex, 3> v = {snap(triangle[0]), snap(triangle[1]), snap(triangle[2])};
-    const int64_t area = signedArea(v[0], v[1], v[2]);
-    if (isCulled(area, state)) return;
-    TriangleRecord record = makeRecord(v, area, isFront(area, state));
-    record.draw = draw;
-    record.triangle = index;
-    records.push_back(record);
+    StoredTriangle t = storedTriangle(
+        {input.firstVertex + corners[0], input.firstVertex + corners[1], input.firstVertex + corners[2]},
+        area, isFront(area, input.draw->state));
+    t.draw = input.number;
+    t.triangle = index;
+    triangles.push_back(t);
+    addBox(box);
     statistics.records++;
 }
 
-void TriangleSetup::addPolygon(const Polygon& polygon, const DrawState& state, uint32_t draw,
-                               uint32_t index) {
-    std::array<SnappedVertex, kMaxPolygonVertices> v;
+void TriangleSetup::addBox(const TileBox& box) {
+    boxes.push_back(box);
+    for (int y = box.y0; y <= box.y1; y++)
+        for (int x = box.x0; x <= box.x1; x++) countOfTile[grid_->index(x, y)]++;
+}
+
+void TriangleSetup::addClipped(const DrawInput& input, uint32_t index, const std::array<uint32_t, 3>& corners,
+                               int planes) {
+    // Cut; -0 becomes +0 as in the vertex stage.
+    std::array<ClipVertex, 3> source;
+    for (size_t i = 0; i < 3; i++) {
+        const ClipVertex& v = input.draw->vertices[corners[i]];
+        source[i] = {v.x + 0.0, v.y + 0.0, v.z + 0.0, v.w + 0.0};
+    }
+    Polygon polygon;
+    if (!clipTriangle(source, *transform_, planes, polygon)) {
+        statistics.rejected++;
+        return;
+    }
+    statistics.clipped++;
+
+    // The whole polygon's area decides about it.
+    std::array<ProjectedVertex, kMaxPolygonVertices> v;
     const size_t count = static_cast<size_t>(polygon.count);
-    for (size_t i = 0; i < count; i++) v[i] = snap(polygon.vertices[i].position);
+    for (size_t i = 0; i < count; i++) v[i] = project(polygon.vertices[i].position, *transform_);
     int64_t area = 0;
     bool hasPositive = false, hasNegative = false;
     for (size_t i = 1; i + 1 < count; i++) {
@@ -155,26 +146,38 @@ void TriangleSetup::addPolygon(const Polygon& polygon, const DrawState& state, u
         hasPositive = hasPositive || piece > 0;
         hasNegative = hasNegative || piece < 0;
     }
-    if (isCulled(area, state)) return;
+    if (isCulled(area, input.draw->state)) return;
 
-    const size_t firstRecord = records.size();
+    // A fan of pieces.
+    const auto firstVertex = static_cast<uint32_t>(clippedVertices.size());
+    for (size_t i = 0; i < count; i++) clippedVertices.push_back({v[i], polygon.vertices[i].barycentric});
+    const size_t firstPiece = triangles.size();
+    const bool isGroup = hasPositive && hasNegative;
+    int32_t xMin = INT32_MAX, yMin = INT32_MAX, xMax = INT32_MIN, yMax = INT32_MIN;
     for (size_t i = 1; i + 1 < count; i++) {
         const int64_t piece = signedArea(v[0], v[i], v[i + 1]);
         if (piece == 0) continue;
-        TriangleRecord record = makeRecord({v[0], v[i], v[i + 1]}, piece, isFront(area, state));
-        record.draw = draw;
-        record.triangle = index;
-        record.reversed = (piece > 0) != (area > 0);
-        record.clipped = static_cast<int32_t>(clippedCorners.size());
-        const std::array<size_t, 3> source = {0, i, i + 1};
-        ClippedCorners corners;
-        for (size_t k = 0; k < 3; k++) corners[k] = polygon.vertices[source[record.corner[k]]].barycentric;
-        clippedCorners.push_back(corners);
-        records.push_back(record);
+        StoredTriangle t = storedTriangle(
+            {firstVertex, firstVertex + static_cast<uint32_t>(i), firstVertex + static_cast<uint32_t>(i + 1)},
+            piece, isFront(area, input.draw->state));
+        t.draw = input.number;
+        t.triangle = index;
+        t.clipped = true;
+        t.reversed = (piece > 0) != (area > 0);
+        triangles.push_back(t);
         statistics.records++;
+        if (!isGroup) xMin = yMin = INT32_MAX, xMax = yMax = INT32_MIN;
+        for (const size_t k : {size_t{0}, i, i + 1}) {
+            xMin = std::min(xMin, v[k].x_subpx), xMax = std::max(xMax, v[k].x_subpx);
+            yMin = std::min(yMin, v[k].y_subpx), yMax = std::max(yMax, v[k].y_subpx);
+        }
+        addBox(isGroup ? kNoTiles : grid_->tilesOf(xMin, yMin, xMax, yMax));
     }
-    if (hasPositive && hasNegative)
-        records[firstRecord].groupSize = static_cast<uint8_t>(records.size() - firstRecord);
+    if (!isGroup) return;
+    triangles[firstPiece].groupSize = static_cast<uint8_t>(triangles.size() - firstPiece);
+    boxes.resize(firstPiece);
+    addBox(grid_->tilesOf(xMin, yMin, xMax, yMax));
+    boxes.resize(triangles.size(), kNoTiles);
 }
 
 }  // namespace etalon

@@ -1,13 +1,14 @@
-// From clip space to triangle records (rules 1 to 3).
+// From projected vertices to triangles: assembly, cut and culling (rules 1 to 3), and the tiles that each can
+// touch.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "raster/clip.h"
-#include "raster/rasterizer.h"
-#include "raster/render_target.h"
+#include "raster/tile_grid.h"
 
 namespace etalon {
 
@@ -25,33 +26,39 @@ struct EdgeFunction {
 
 std::array<EdgeFunction, 3> edgeFunctions(const TriangleRecord& record);
 
-// Turns the triangles [first, last) of a draw into records, in order, and counts what became of them.
+// A draw after the vertex stage.
+struct DrawInput {
+    const Draw* draw;
+    std::span<const ProjectedVertex> projected;
+    std::span<const uint8_t> outcodes;
+    uint32_t number;       // StoredTriangle::draw
+    uint32_t firstVertex;  // number of the first vertex in the target
+};
+
+// Turns triangles into stored ones, in order, and counts what became of them and how many each tile gets.
+// Vertices that clipping makes are numbered from 0.
 class TriangleSetup {
   public:
-    TriangleSetup(const Viewport& viewport, int subpixelBits);
+    // Starts anew; keeps the memory.
+    void begin(const ViewportTransform& transform, const TileGrid& grid);
+    // The triangles [first, last) of a draw.
+    void process(const DrawInput& input, size_t first, size_t last);
 
-    void process(const Draw& draw, uint32_t drawIndex, size_t first, size_t last);
-
-    std::vector<TriangleRecord> records;
-    std::vector<ClippedCorners> clippedCorners;
+    std::vector<StoredTriangle> triangles;
+    std::vector<TileBox> boxes;  // of each triangle; a group has the box of all its pieces at its first one
+    std::vector<ClippedVertex> clippedVertices;
+    std::vector<uint32_t> countOfTile;
     RasterStatistics statistics;
 
   private:
-    struct SnappedVertex {
-        int32_t x_subpx, y_subpx;
-        double z, reciprocalW;
-    };
-
-    SnappedVertex snap(const ClipVertex& p) const;
     bool isCulled(int64_t area, const DrawState& state);
-    TriangleRecord makeRecord(const std::array<SnappedVertex, 3>& v, int64_t area, bool front) const;
-    void addTriangle(const std::array<ClipVertex, 3>& triangle, const DrawState& state, uint32_t draw,
-                     uint32_t index);
-    void addPolygon(const Polygon& polygon, const DrawState& state, uint32_t draw, uint32_t index);
+    void addTriangle(const DrawInput& input, uint32_t index, const std::array<uint32_t, 3>& corners);
+    void addClipped(const DrawInput& input, uint32_t index, const std::array<uint32_t, 3>& corners,
+                    int planes);
+    void addBox(const TileBox& box);
 
-    GuardBand guard_;
-    double centreX_px_, centreY_px_, halfWidth_px_, halfHeight_px_;
-    double subpixels_;
+    const ViewportTransform* transform_ = nullptr;
+    const TileGrid* grid_ = nullptr;
 };
 
 }  // namespace etalon

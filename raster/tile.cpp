@@ -1,38 +1,64 @@
 #include "raster/tile.h"
 
 #include <algorithm>
+#include <array>
+#include <vector>
 
 #include "raster/depth.h"
 #include "raster/setup.h"
 
 namespace etalon {
+namespace {
 
-using RowInt = Lanes<int32_t, kBlockSize>;
-using RowDouble = Lanes<double, kBlockSize>;
+// Coverage is decided in blocks of 8 x 8 pixels; a tile's planes are stored block by block, so that a group
+// of lanes is contiguous: one pixel, half a row, a row or two rows of a block.
+constexpr int kBlockSize = 8;
+constexpr int kBlockPixels = kBlockSize * kBlockSize;
+constexpr int kGroup = std::min(kLanes, 16);
+constexpr int kGroupWidth = std::min(kGroup, kBlockSize);
 
-// A record with everything that its pixels share.
-struct TileRasterizer::Piece {
-    std::array<EdgeFunction, 3> edges;
+using GroupInt = Lanes<int32_t, kGroup>;
+using GroupMask = Mask<int32_t, kGroup>;
+using GroupDouble = Lanes<double, kGroup>;
+using Rectangle = TileGrid::Rectangle;
+
+GroupInt splat(int32_t value) { return GroupInt(GroupInt::Vector{} + value); }
+GroupInt laneX() {
+    return GroupInt::generate([](int i) { return i % kBlockSize; });
+}
+GroupInt laneY() {
+    return GroupInt::generate([](int i) { return i / kBlockSize; });
+}
+
+// Edges whose values fit 32 bits everywhere in the blocks that the triangle touches: those of triangles of at
+// most 2^14 subpixels. Then |E| <= 2 * 2^14 * (2^14 + 2 * 8 * 2^8) < 2^31.
+constexpr int32_t kSmallExtent_subpx = 1 << 14;
+
+// A triangle with everything that its pixels share.
+struct Piece {
+    struct Edge {
+        int32_t x, y;          // its first vertex, in subpixels
+        int32_t stepX, stepY;  // of E per subpixel
+        int32_t excluded;      // 1 when samples with E = 0 are outside, else 0
+
+        int64_t at(int64_t x_subpx, int64_t y_subpx) const {
+            return int64_t{stepX} * (x_subpx - x) + int64_t{stepY} * (y_subpx - y);
+        }
+    };
+    std::array<Edge, 3> edges;
     std::array<double, 3> z;
     double reciprocalArea, bias;
     int x0, y0, x1, y1;  // pixels that can be covered: x0 <= x <= x1, y0 <= y <= y1
     uint32_t id;
-    bool front, reversed;
+    bool front, reversed, isSmall;
     const DrawState* state;
 };
 
-// Eight pixels of one sample plane, starting at a multiple of 8 inside the tile.
-struct TileRasterizer::BlockRow {
-    int x, y;  // target pixels
-    int sample;
-    int64_t x_subpx, y_subpx;  // sample position of the first pixel
+// kGroup pixels of one sample plane.
+struct Group {
+    int x, y;       // target pixel of the first
+    size_t offset;  // of the first in the tile's planes
 };
-
-namespace {
-
-RowInt laneIndices() {
-    return RowInt::generate([](int i) { return i; });
-}
 
 // a compared with b: a Result (a mask for lanes, bool for single values).
 template <class Result, class Value>
@@ -80,250 +106,410 @@ uint8_t stencilResult(StencilOperation operation, uint8_t stored, uint8_t refere
     return stored;
 }
 
-}  // namespace
+// What a piece's depth needs, in lanes of the raster arithmetic.
+template <class Real>
+struct PieceDepth {
+    using Row = Lanes<Real, kGroup>;
+    using Kernels = RasterKernels<Row>;
+    using vec3 = typename Kernels::vec3;
 
-void TileRasterizer::run(RenderTarget& target, const TileRectangle& rectangle, std::span<const Draw> draws,
-                         uint32_t firstDraw, std::span<const uint32_t> recordIndices) {
-    if (recordIndices.empty()) return;
+    explicit PieceDepth(const Piece& piece)
+        : z(Row(piece.z[0]), Row(piece.z[1]), Row(piece.z[2])),
+          lowest(std::min({piece.z[0], piece.z[1], piece.z[2]})),
+          highest(std::max({piece.z[0], piece.z[1], piece.z[2]})),
+          reciprocalArea(piece.reciprocalArea),
+          bias(piece.bias),
+          hasBias(piece.bias != 0) {}
+
+    // The stored depths for the edge values e (rules 5 to 7).
+    GroupInt at(const vec3& e, const RenderTargetFormat& format) const {
+        Kernels kernels;
+        Row depth = kernels.interpolateDepth(e, reciprocalArea, z, lowest, highest);
+        if (hasBias) depth = depth + bias;
+        return storedDepth(format.depth, format.depthRounding, depth);
+    }
+
+    vec3 z;
+    Row lowest, highest, reciprocalArea, bias;
+    bool hasBias;
+};
+
+class TileRasterizerOfLevel final : public TileRasterizer {
+  public:
+    void run(RenderTarget& target, const Rectangle& rectangle, std::span<const Draw> draws,
+             uint32_t firstDraw, const UsedPlanes& used, std::span<const uint32_t> triangles) override;
+
+  private:
+    template <class Stored, class Copy>
+    void copyPlanes(Image<Stored>& image, Copy copy) const;
+    void load(RenderTarget& target);
+    void store(RenderTarget& target) const;
+    Piece preparePiece(const RenderTarget& target, uint32_t number, const DrawState& state) const;
+    template <class Real>
+    void drawAll(const RenderTarget& target, std::span<const Draw> draws, uint32_t firstDraw,
+                 std::span<const uint32_t> triangles);
+    template <class Real>
+    void drawPiece(const Piece& piece);
+    template <class Real>
+    void drawSmallBlock(const Piece& piece, const PieceDepth<Real>& depth, int blockX, int blockY,
+                        int sample);
+    template <class Real>
+    void drawLargeBlock(const Piece& piece, const PieceDepth<Real>& depth, int blockX, int blockY,
+                        int sample);
+    template <class Real>
+    void drawGroup(std::span<const Piece> pieces);
+    GroupMask winding(std::span<const Piece> pieces, int64_t x_subpx, int64_t y_subpx,
+                      std::span<int> firstCovering) const;
+    template <class Visit>
+    void forEachGroup(const Piece& piece, int blockX, int blockY, int sample, Visit visit) const;
+    GroupMask insideRectangle(const Group& group) const;
+    template <class Real>
+    void test(const Piece& piece, const PieceDepth<Real>& depth, const typename PieceDepth<Real>::vec3& e,
+              const Group& group, GroupMask covered);
+    GroupMask testStencil(const Piece& piece, const Group& group, GroupMask covered, GroupMask depthPassed);
+
+    std::array<int64_t, 2> samplePosition(int x, int y, int sample) const {
+        const auto& position = samplePositions_[static_cast<size_t>(sample)];
+        const int n = format_.subpixelBits;
+        return {(int64_t{x} << n) + ((position[0] << n) >> 4), (int64_t{y} << n) + ((position[1] << n) >> 4)};
+    }
+    size_t blockOffset(int blockX, int blockY, int sample) const {
+        const int row = (blockY - rectangle_.tileY) / kBlockSize,
+                  column = (blockX - rectangle_.tileX) / kBlockSize;
+        return static_cast<size_t>((sample * blockRows_ + row) * blockColumns_ + column) * kBlockPixels;
+    }
+    bool holdsBlock(int blockX, int blockY) const {
+        return blockX >= rectangle_.x0 && blockX + kBlockSize <= rectangle_.x1 && blockY >= rectangle_.y0 &&
+               blockY + kBlockSize <= rectangle_.y1;
+    }
+
+    Rectangle rectangle_{};
+    RenderTargetFormat format_;
+    UsedPlanes used_;
+    std::span<const std::array<int, 2>> samplePositions_;
+    int blockColumns_ = 0, blockRows_ = 0;
+    std::vector<int32_t> depth_, id_;
+    std::vector<uint8_t> stencil_;
+    std::vector<Piece> group_;
+};
+
+void TileRasterizerOfLevel::run(RenderTarget& target, const Rectangle& rectangle, std::span<const Draw> draws,
+                                uint32_t firstDraw, const UsedPlanes& used,
+                                std::span<const uint32_t> triangles) {
     rectangle_ = rectangle;
     format_ = target.format;
+    used_ = used;
     samplePositions_ = samplePositions(format_.samples);
+    blockColumns_ = (rectangle.x1 - rectangle.tileX + kBlockSize - 1) / kBlockSize;
+    blockRows_ = (rectangle.y1 - rectangle.tileY + kBlockSize - 1) / kBlockSize;
     load(target);
-    std::vector<Piece> group;
-    for (uint32_t index : recordIndices) {
-        const TriangleRecord& record = target.triangles[index];
-        const DrawState& state = draws[record.draw - firstDraw].state;
-        if (record.groupSize == 0) {
-            drawPiece(preparePiece(target, index, state));
-            continue;
-        }
-        group.clear();
-        for (uint32_t k = 0; k < record.groupSize; k++)
-            group.push_back(preparePiece(target, index + k, state));
-        drawGroup(group);
-    }
+    if (format_.real == RasterReal::fp32)
+        drawAll<float>(target, draws, firstDraw, triangles);
+    else
+        drawAll<double>(target, draws, firstDraw, triangles);
     store(target);
 }
 
-void TileRasterizer::load(const RenderTarget& target) {
-    const size_t size = static_cast<size_t>(tileSize_) * static_cast<size_t>(tileSize_);
-    const size_t total = size * static_cast<size_t>(format_.samples);
+// Calls copy(values of the image, offset in the tile's planes, count) for each row of each block in the
+// rectangle.
+template <class Stored, class Copy>
+void TileRasterizerOfLevel::copyPlanes(Image<Stored>& image, Copy copy) const {
+    for (int s = 0; s < format_.samples; s++) {
+        for (int y = rectangle_.y0; y < rectangle_.y1; y++) {
+            const int line = (y - rectangle_.tileY) % kBlockSize;
+            const std::span<Stored> row = image.row(y, s);
+            for (int x = rectangle_.tileX; x < rectangle_.x1; x += kBlockSize)
+                copy(&row[static_cast<size_t>(x)],
+                     blockOffset(x, y - line, s) + static_cast<size_t>(line * kBlockSize),
+                     static_cast<size_t>(std::min(kBlockSize, rectangle_.x1 - x)));
+        }
+    }
+}
+
+void TileRasterizerOfLevel::load(RenderTarget& target) {
+    const size_t total = static_cast<size_t>(blockColumns_ * blockRows_ * format_.samples) * kBlockPixels;
     depth_.resize(total);
-    stencil_.resize(total);
-    id_.resize(total);
-    const size_t width = static_cast<size_t>(rectangle_.x1 - rectangle_.tileX);
-    for (int s = 0; s < format_.samples; s++) {
-        for (int y = rectangle_.y0; y < rectangle_.y1; y++) {
-            const size_t to = rowOffset({rectangle_.tileX, y, s, 0, 0});
-            const size_t from = static_cast<size_t>(rectangle_.tileX);
-            std::copy_n(target.depth.row(y, s).begin() + from, width, depth_.begin() + to);
-            std::copy_n(target.stencil.row(y, s).begin() + from, width, stencil_.begin() + to);
-            std::copy_n(target.id.row(y, s).begin() + from, width, id_.begin() + to);
-        }
+    copyPlanes(target.depth,
+               [&](const uint32_t* from, size_t to, size_t n) { std::copy_n(from, n, &depth_[to]); });
+    if (used_.id) {
+        id_.resize(total);
+        copyPlanes(target.id,
+                   [&](const uint32_t* from, size_t to, size_t n) { std::copy_n(from, n, &id_[to]); });
+    }
+    if (used_.stencil) {
+        stencil_.resize(total);
+        copyPlanes(target.stencil,
+                   [&](const uint8_t* from, size_t to, size_t n) { std::copy_n(from, n, &stencil_[to]); });
     }
 }
 
-void TileRasterizer::store(RenderTarget& target) const {
-    const size_t width = static_cast<size_t>(rectangle_.x1 - rectangle_.tileX);
-    for (int s = 0; s < format_.samples; s++) {
-        for (int y = rectangle_.y0; y < rectangle_.y1; y++) {
-            const size_t from = rowOffset({rectangle_.tileX, y, s, 0, 0});
-            const size_t to = static_cast<size_t>(rectangle_.tileX);
-            std::copy_n(depth_.begin() + from, width, target.depth.row(y, s).begin() + to);
-            std::copy_n(stencil_.begin() + from, width, target.stencil.row(y, s).begin() + to);
-            std::copy_n(id_.begin() + from, width, target.id.row(y, s).begin() + to);
-        }
-    }
+void TileRasterizerOfLevel::store(RenderTarget& target) const {
+    copyPlanes(target.depth, [&](uint32_t* to, size_t from, size_t n) { std::copy_n(&depth_[from], n, to); });
+    if (used_.id)
+        copyPlanes(target.id, [&](uint32_t* to, size_t from, size_t n) { std::copy_n(&id_[from], n, to); });
+    if (used_.stencil)
+        copyPlanes(target.stencil,
+                   [&](uint8_t* to, size_t from, size_t n) { std::copy_n(&stencil_[from], n, to); });
 }
 
-size_t TileRasterizer::rowOffset(const BlockRow& row) const {
-    const int line = row.sample * tileSize_ + (row.y - rectangle_.tileY);
-    return static_cast<size_t>(line) * static_cast<size_t>(tileSize_) +
-           static_cast<size_t>(row.x - rectangle_.tileX);
-}
-
-TileRasterizer::Piece TileRasterizer::preparePiece(const RenderTarget& target, uint32_t recordIndex,
-                                                   const DrawState& state) const {
-    const TriangleRecord& record = target.triangles[recordIndex];
+Piece TileRasterizerOfLevel::preparePiece(const RenderTarget& target, uint32_t number,
+                                          const DrawState& state) const {
+    const StoredTriangle& stored = target.triangles[number];
+    const std::array<const ProjectedVertex*, 3> v = {&target.vertex(stored, 0), &target.vertex(stored, 1),
+                                                     &target.vertex(stored, 2)};
     Piece piece;
-    piece.edges = edgeFunctions(record);
-    piece.z = vertexDepths(record, format_.real);
-    piece.reciprocalArea = 1.0 / static_cast<double>(record.area);
-    piece.bias = depthBias(state.bias, format_.depth, record, piece.z, format_.subpixelBits);
-    const auto [xMin, xMax] = std::minmax({record.x_subpx[0], record.x_subpx[1], record.x_subpx[2]});
-    const auto [yMin, yMax] = std::minmax({record.y_subpx[0], record.y_subpx[1], record.y_subpx[2]});
-    piece.x0 = std::max(xMin >> format_.subpixelBits, rectangle_.x0);
-    piece.y0 = std::max(yMin >> format_.subpixelBits, rectangle_.y0);
-    piece.x1 = std::min(xMax >> format_.subpixelBits, rectangle_.x1 - 1);
-    piece.y1 = std::min(yMax >> format_.subpixelBits, rectangle_.y1 - 1);
-    piece.id = recordIndex;
-    piece.front = record.front;
-    piece.reversed = record.reversed;
+    for (size_t i = 0; i < 3; i++) {
+        const ProjectedVertex &a = *v[(i + 1) % 3], &b = *v[(i + 2) % 3];
+        const int32_t dx = b.x_subpx - a.x_subpx, dy = b.y_subpx - a.y_subpx;
+        piece.edges[i] = {a.x_subpx, a.y_subpx, -dy, dx, dy < 0 || (dy == 0 && dx > 0) ? 0 : 1};
+        piece.z[i] = v[i]->z;
+    }
+    const Piece::Edge &e1 = piece.edges[1], &e2 = piece.edges[2];
+    piece.reciprocalArea =
+        1.0 / static_cast<double>(int64_t{e2.stepY} * e1.stepX - int64_t{e1.stepY} * e2.stepX);
+    const auto [xMin, xMax] = std::minmax({v[0]->x_subpx, v[1]->x_subpx, v[2]->x_subpx});
+    const auto [yMin, yMax] = std::minmax({v[0]->y_subpx, v[1]->y_subpx, v[2]->y_subpx});
+    piece.isSmall = xMax - xMin <= kSmallExtent_subpx && yMax - yMin <= kSmallExtent_subpx;
+    const int n = format_.subpixelBits;
+    piece.x0 = std::max(xMin >> n, rectangle_.x0);
+    piece.y0 = std::max(yMin >> n, rectangle_.y0);
+    piece.x1 = std::min(xMax >> n, rectangle_.x1 - 1);
+    piece.y1 = std::min(yMax >> n, rectangle_.y1 - 1);
+    piece.id = number;
+    piece.front = stored.front;
+    piece.reversed = stored.reversed;
     piece.state = &state;
+    piece.bias = state.bias.constant == 0 && state.bias.slopeScale == 0
+                     ? 0
+                     : depthBias(state.bias, format_.depth, target.triangle(number), n);
     return piece;
 }
 
-void TileRasterizer::drawPiece(const Piece& piece) {
-    if (piece.x0 > piece.x1 || piece.y0 > piece.y1) return;
-    const int blockX0 = (piece.x0 - rectangle_.tileX) / kBlockSize,
-              blockX1 = (piece.x1 - rectangle_.tileX) / kBlockSize;
-    const int blockY0 = (piece.y0 - rectangle_.tileY) / kBlockSize,
-              blockY1 = (piece.y1 - rectangle_.tileY) / kBlockSize;
-    for (int by = blockY0; by <= blockY1; by++)
-        for (int bx = blockX0; bx <= blockX1; bx++)
-            for (int s = 0; s < format_.samples; s++)
-                drawBlock(piece, rectangle_.tileX + bx * kBlockSize, rectangle_.tileY + by * kBlockSize, s);
+template <class Real>
+void TileRasterizerOfLevel::drawAll(const RenderTarget& target, std::span<const Draw> draws,
+                                    uint32_t firstDraw, std::span<const uint32_t> triangles) {
+    for (const uint32_t number : triangles) {
+        const StoredTriangle& stored = target.triangles[number];
+        const DrawState& state = draws[stored.draw - firstDraw].state;
+        if (stored.groupSize == 0) {
+            drawPiece<Real>(preparePiece(target, number, state));
+            continue;
+        }
+        group_.clear();
+        for (uint32_t k = 0; k < stored.groupSize; k++)
+            group_.push_back(preparePiece(target, number + k, state));
+        drawGroup<Real>(group_);
+    }
 }
 
-// Decides each edge for the whole block first; rows then look at the undecided edges only. Edge values are
-// floored to whole pixels' steps, E >> n, which keeps the sign and fits 32 bits near an undecided edge:
-// |step| <= 2^25, so |E >> n| < 7 * 2 * 2^25 < 2^29 in the block.
-void TileRasterizer::drawBlock(const Piece& piece, int blockX, int blockY, int sample) {
+template <class Real>
+void TileRasterizerOfLevel::drawPiece(const Piece& piece) {
+    if (piece.x0 > piece.x1 || piece.y0 > piece.y1) return;
+    const PieceDepth<Real> depth(piece);
+    const int x0 = piece.x0 & -kBlockSize, y0 = piece.y0 & -kBlockSize;
+    for (int y = y0; y <= piece.y1; y += kBlockSize)
+        for (int x = x0; x <= piece.x1; x += kBlockSize)
+            for (int s = 0; s < format_.samples; s++) {
+                if (piece.isSmall)
+                    drawSmallBlock(piece, depth, x, y, s);
+                else
+                    drawLargeBlock(piece, depth, x, y, s);
+            }
+}
+
+// Calls visit(group, x, y) for the groups of a block that hold pixels of the piece's box; (x, y) is the
+// group's place in the block.
+template <class Visit>
+void TileRasterizerOfLevel::forEachGroup(const Piece& piece, int blockX, int blockY, int sample,
+                                         Visit visit) const {
+    const size_t offset = blockOffset(blockX, blockY, sample);
+    const int firstRow = std::max(piece.y0 - blockY, 0),
+              lastRow = std::min(piece.y1 - blockY, kBlockSize - 1);
+    const int last = lastRow * kBlockSize + kBlockSize - 1;
+    for (int p = firstRow * kBlockSize / kGroup * kGroup; p <= last; p += kGroup) {
+        const int x = p % kBlockSize, y = p / kBlockSize;
+        if (kGroupWidth < kBlockSize && (blockX + x > piece.x1 || blockX + x + kGroupWidth <= piece.x0))
+            continue;
+        visit(Group{blockX + x, blockY + y, offset + static_cast<size_t>(p)}, x, y);
+    }
+}
+
+// 32-bit edge values.
+template <class Real>
+void TileRasterizerOfLevel::drawSmallBlock(const Piece& piece, const PieceDepth<Real>& depth, int blockX,
+                                           int blockY, int sample) {
     const int n = format_.subpixelBits;
-    const auto& position = samplePositions_[static_cast<size_t>(sample)];
-    BlockRow row{blockX, blockY, sample, (int64_t{blockX} << n) + ((position[0] << n) >> 4),
-                 (int64_t{blockY} << n) + ((position[1] << n) >> 4)};
+    const auto [x_subpx, y_subpx] = samplePosition(blockX, blockY, sample);
+    int32_t first[3], stepX[3], stepY[3];
+    GroupInt lanes[3];
+    for (size_t i = 0; i < 3; i++) {
+        first[i] = static_cast<int32_t>(piece.edges[i].at(x_subpx, y_subpx));
+        stepX[i] = piece.edges[i].stepX * (1 << n);
+        stepY[i] = piece.edges[i].stepY * (1 << n);
+        lanes[i] = splat(stepX[i]) * laneX() + splat(stepY[i]) * laneY();
+    }
+    const bool whole = holdsBlock(blockX, blockY);
+    forEachGroup(piece, blockX, blockY, sample, [&](const Group& group, int x, int y) {
+        GroupInt e[3];
+        for (int i = 0; i < 3; i++) e[i] = lanes[i] + splat(first[i] + stepX[i] * x + stepY[i] * y);
+        const GroupInt outside = (e[0] - splat(piece.edges[0].excluded)) |
+                                 (e[1] - splat(piece.edges[1].excluded)) |
+                                 (e[2] - splat(piece.edges[2].excluded));
+        GroupMask covered = outside >= splat(0);
+        if (!whole) covered = covered && insideRectangle(group);
+        if (anyOf(covered))
+            test<Real>(piece, depth,
+                       {convertLanes<Real>(e[0]), convertLanes<Real>(e[1]), convertLanes<Real>(e[2])}, group,
+                       covered);
+    });
+}
+
+// Decides each edge for the whole block first; groups then look at the undecided edges only. There edge
+// values are floored to whole pixels' steps, E >> n, which keeps the sign and fits 32 bits near an undecided
+// edge: |step| <= 2^25, so |E >> n| < 7 * 2 * 2^25 < 2^29 in the block. Depth takes E itself, below 2^53,
+// from doubles.
+template <class Real>
+void TileRasterizerOfLevel::drawLargeBlock(const Piece& piece, const PieceDepth<Real>& depth, int blockX,
+                                           int blockY, int sample) {
+    const int n = format_.subpixelBits;
+    const auto [x_subpx, y_subpx] = samplePosition(blockX, blockY, sample);
     struct {
-        int32_t value, stepX, stepY;
+        int32_t first, stepX, stepY;
+        GroupInt lanes;
     } undecided[3];
     int undecidedCount = 0;
-    for (const EdgeFunction& edge : piece.edges) {
-        const int64_t value = (edge.at(row.x_subpx, row.y_subpx) - (edge.ownsZero ? 0 : 1)) >> n;
-        const int64_t acrossX = edge.stepX * (kBlockSize - 1), acrossY = edge.stepY * (kBlockSize - 1);
+    int64_t first[3];
+    for (size_t i = 0; i < 3; i++) {
+        const Piece::Edge& edge = piece.edges[i];
+        first[i] = edge.at(x_subpx, y_subpx);
+        const int64_t value = (first[i] - edge.excluded) >> n;
+        const int64_t acrossX = int64_t{edge.stepX} * (kBlockSize - 1),
+                      acrossY = int64_t{edge.stepY} * (kBlockSize - 1);
         const int64_t highest = value + std::max<int64_t>(acrossX, 0) + std::max<int64_t>(acrossY, 0);
         const int64_t lowest = value + std::min<int64_t>(acrossX, 0) + std::min<int64_t>(acrossY, 0);
         if (highest < 0) return;
         if (lowest >= 0) continue;
-        undecided[undecidedCount++] = {static_cast<int32_t>(value), static_cast<int32_t>(edge.stepX),
-                                       static_cast<int32_t>(edge.stepY)};
+        undecided[undecidedCount++] = {static_cast<int32_t>(value), edge.stepX, edge.stepY,
+                                       splat(edge.stepX) * laneX() + splat(edge.stepY) * laneY()};
     }
-    const RowInt lanes = laneIndices();
-    const bool wholeRows = blockX >= rectangle_.x0 && blockX + kBlockSize <= rectangle_.x1;
-    const int firstRow = std::max(piece.y0 - blockY, 0),
-              lastRow = std::min(piece.y1 - blockY, kBlockSize - 1);
-    for (int j = firstRow; j <= lastRow; j++) {
-        RowInt outside(0.0);
-        for (int k = 0; k < undecidedCount; k++) {
-            const int32_t atRow = undecided[k].value + undecided[k].stepY * j;
-            outside = outside | (RowInt(RowInt::Vector{} + atRow) +
-                                 RowInt(RowInt::Vector{} + undecided[k].stepX) * lanes);
-        }
-        BlockMask covered = outside >= RowInt(0.0);
-        const BlockRow here{blockX, blockY + j, sample, row.x_subpx, row.y_subpx + (int64_t{j} << n)};
-        if (!wholeRows) covered = covered && insideRectangle(here.x, here.y);
-        if (anyOf(covered)) testRow(piece, here, covered);
+    GroupDouble lanes[3];
+    double stepX[3], stepY[3];
+    for (size_t i = 0; i < 3; i++) {
+        stepX[i] = static_cast<double>(int64_t{piece.edges[i].stepX} << n);
+        stepY[i] = static_cast<double>(int64_t{piece.edges[i].stepY} << n);
+        lanes[i] = GroupDouble(stepX[i]) * convertLanes<double>(laneX()) +
+                   GroupDouble(stepY[i]) * convertLanes<double>(laneY());
     }
+    const bool whole = holdsBlock(blockX, blockY);
+    forEachGroup(piece, blockX, blockY, sample, [&](const Group& group, int x, int y) {
+        GroupInt outside = splat(0);
+        for (int k = 0; k < undecidedCount; k++)
+            outside = outside | (undecided[k].lanes +
+                                 splat(undecided[k].first + undecided[k].stepX * x + undecided[k].stepY * y));
+        GroupMask covered = outside >= splat(0);
+        if (!whole) covered = covered && insideRectangle(group);
+        if (!anyOf(covered)) return;
+        const auto edgeValue = [&](size_t i) {
+            const double atGroup = static_cast<double>(first[i]) + (stepX[i] * x + stepY[i] * y);
+            return convertLanes<Real>(lanes[i] + GroupDouble(atGroup));
+        };
+        test<Real>(piece, depth, {edgeValue(0), edgeValue(1), edgeValue(2)}, group, covered);
+    });
 }
 
-BlockMask TileRasterizer::insideRectangle(int x, int y) const {
-    BlockMask inside(false);
-    if (y < rectangle_.y0 || y >= rectangle_.y1) return inside;
-    for (int i = 0; i < kBlockSize; i++)
-        inside.m[i] = x + i >= rectangle_.x0 && x + i < rectangle_.x1 ? -1 : 0;
-    return inside;
+GroupMask TileRasterizerOfLevel::insideRectangle(const Group& group) const {
+    const GroupInt x = splat(group.x) + laneX(), y = splat(group.y) + laneY();
+    return x >= splat(rectangle_.x0) && x < splat(rectangle_.x1) && y >= splat(rectangle_.y0) &&
+           y < splat(rectangle_.y1);
 }
 
 // A polygon some of whose pieces were turned around by snapping (rule 2): rare and thin, so pixel by pixel.
-void TileRasterizer::drawGroup(std::span<const Piece> pieces) {
-    const int n = format_.subpixelBits;
-    int y0 = rectangle_.y1, y1 = rectangle_.y0 - 1, x0 = rectangle_.x1, x1 = rectangle_.x0 - 1;
+template <class Real>
+void TileRasterizerOfLevel::drawGroup(std::span<const Piece> pieces) {
+    Piece box = pieces[0];
     for (const Piece& piece : pieces) {
-        x0 = std::min(x0, piece.x0);
-        x1 = std::max(x1, piece.x1);
-        y0 = std::min(y0, piece.y0);
-        y1 = std::max(y1, piece.y1);
+        box.x0 = std::min(box.x0, piece.x0);
+        box.x1 = std::max(box.x1, piece.x1);
+        box.y0 = std::min(box.y0, piece.y0);
+        box.y1 = std::max(box.y1, piece.y1);
     }
-    x0 = std::max(x0, rectangle_.x0);
-    x1 = std::min(x1, rectangle_.x1 - 1);
-    const int firstBlockX = rectangle_.tileX + (x0 - rectangle_.tileX) / kBlockSize * kBlockSize;
-    for (int y = std::max(y0, rectangle_.y0); y <= std::min(y1, rectangle_.y1 - 1); y++) {
-        for (int x = firstBlockX; x <= x1; x += kBlockSize) {
-            for (int s = 0; s < format_.samples; s++) {
-                const auto& position = samplePositions_[static_cast<size_t>(s)];
-                const BlockRow row{x, y, s, (int64_t{x} << n) + ((position[0] << n) >> 4),
-                                   (int64_t{y} << n) + ((position[1] << n) >> 4)};
-                std::array<int, kBlockSize> firstCovering;
-                const BlockMask covered = windingRow(pieces, row, firstCovering) && insideRectangle(x, y);
-                for (size_t k = 0; k < pieces.size(); k++) {
-                    BlockMask mine = covered;
-                    for (int i = 0; i < kBlockSize; i++)
-                        if (firstCovering[static_cast<size_t>(i)] != static_cast<int>(k)) mine.m[i] = 0;
-                    if (anyOf(mine)) testRow(pieces[k], row, mine);
-                }
-            }
+    box.x0 = std::max(box.x0, rectangle_.x0);
+    box.y0 = std::max(box.y0, rectangle_.y0);
+    box.x1 = std::min(box.x1, rectangle_.x1 - 1);
+    box.y1 = std::min(box.y1, rectangle_.y1 - 1);
+    const auto visit = [&](const Group& group, int sample) {
+        const auto [x_subpx, y_subpx] = samplePosition(group.x, group.y, sample);
+        std::array<int, kGroup> firstCovering;
+        const GroupMask covered = winding(pieces, x_subpx, y_subpx, firstCovering) && insideRectangle(group);
+        for (size_t k = 0; k < pieces.size(); k++) {
+            GroupMask mine = covered;
+            for (int i = 0; i < kGroup; i++)
+                if (firstCovering[static_cast<size_t>(i)] != static_cast<int>(k)) mine.m[i] = 0;
+            if (!anyOf(mine)) continue;
+            const auto edgeValue = [&](const Piece::Edge& edge) {
+                const int n = format_.subpixelBits;
+                return convertLanes<Real>(GroupDouble::generate([&](int i) {
+                    return edge.at(x_subpx + (int64_t{i % kBlockSize} << n),
+                                   y_subpx + (int64_t{i / kBlockSize} << n));
+                }));
+            };
+            const auto& edges = pieces[k].edges;
+            test<Real>(pieces[k], PieceDepth<Real>(pieces[k]),
+                       {edgeValue(edges[0]), edgeValue(edges[1]), edgeValue(edges[2])}, group, mine);
         }
-    }
+    };
+    for (int y = box.y0 & -kBlockSize; y <= box.y1; y += kBlockSize)
+        for (int x = box.x0 & -kBlockSize; x <= box.x1; x += kBlockSize)
+            for (int s = 0; s < format_.samples; s++)
+                forEachGroup(box, x, y, s, [&](const Group& group, int, int) { visit(group, s); });
 }
 
-// Which of the row's samples more pieces of the polygon's sign cover than reversed ones, and the first
-// covering piece of the polygon's sign.
-BlockMask TileRasterizer::windingRow(std::span<const Piece> pieces, const BlockRow& row,
-                                     std::span<int> firstCovering) const {
-    BlockMask covered(false);
-    for (int i = 0; i < kBlockSize; i++) {
-        const int64_t x_subpx = row.x_subpx + (int64_t{i} << format_.subpixelBits);
-        int winding = 0, first = -1;
+// Which of the group's samples more pieces of the polygon's sign cover than reversed ones, and the first
+// covering piece of the polygon's sign. x_subpx, y_subpx: the first sample.
+GroupMask TileRasterizerOfLevel::winding(std::span<const Piece> pieces, int64_t x_subpx, int64_t y_subpx,
+                                         std::span<int> firstCovering) const {
+    GroupMask covered(false);
+    for (int i = 0; i < kGroup; i++) {
+        const int64_t x = x_subpx + (int64_t{i % kBlockSize} << format_.subpixelBits);
+        const int64_t y = y_subpx + (int64_t{i / kBlockSize} << format_.subpixelBits);
+        int sum = 0, first = -1;
         for (size_t k = 0; k < pieces.size(); k++) {
             bool inside = true;
-            for (const EdgeFunction& edge : pieces[k].edges)
-                inside = inside && edge.covers(x_subpx, row.y_subpx);
+            for (const Piece::Edge& edge : pieces[k].edges) inside = inside && edge.at(x, y) >= edge.excluded;
             if (!inside) continue;
-            winding += pieces[k].reversed ? -1 : 1;
+            sum += pieces[k].reversed ? -1 : 1;
             if (!pieces[k].reversed && first < 0) first = static_cast<int>(k);
         }
         firstCovering[static_cast<size_t>(i)] = first;
-        covered.m[i] = winding > 0 ? -1 : 0;
+        covered.m[i] = sum > 0 ? -1 : 0;
     }
     return covered;
 }
 
-// The stored depths of the row (rules 5 to 7). Edge values are exact integers below 2^53, so doubles hold
-// them.
 template <class Real>
-RowInt TileRasterizer::rowDepth(const Piece& piece, const BlockRow& row) const {
-    using Row = Lanes<Real, kBlockSize>;
-    using Kernels = RasterKernels<Row>;
-    const RowDouble lanes = convertLanes<double>(laneIndices());
-    Row e[3], z[3];
-    for (size_t i = 0; i < 3; i++) {
-        const EdgeFunction& edge = piece.edges[i];
-        const double atFirst = static_cast<double>(edge.at(row.x_subpx, row.y_subpx));
-        const double perPixel = static_cast<double>(edge.stepX * (int64_t{1} << format_.subpixelBits));
-        e[i] = convertLanes<Real>(RowDouble(atFirst) + RowDouble(perPixel) * lanes);
-        z[i] = Row(piece.z[i]);
-    }
-    Kernels kernels;
-    using vec3 = typename Kernels::vec3;
-    Row depth =
-        kernels.interpolateDepth(vec3(e[0], e[1], e[2]), Row(piece.reciprocalArea), vec3(z[0], z[1], z[2]));
-    if (piece.bias != 0) depth = depth + Row(piece.bias);
-    return storedDepth(format_.depth, format_.depthRounding, depth);
-}
-
-void TileRasterizer::testRow(const Piece& piece, const BlockRow& row, BlockMask covered) {
+void TileRasterizerOfLevel::test(const Piece& piece, const PieceDepth<Real>& pieceDepth,
+                                 const typename PieceDepth<Real>::vec3& e, const Group& group,
+                                 GroupMask covered) {
     const DrawState& state = *piece.state;
-    const size_t offset = rowOffset(row);
-    const RowInt stored = RowInt::load(&depth_[offset]);
-    const RowInt depth =
-        format_.real == RasterReal::fp32 ? rowDepth<float>(piece, row) : rowDepth<double>(piece, row);
-    BlockMask passed = covered && compareValues<BlockMask>(state.depthCompare, depth, stored);
-    if (state.stencil.enabled) passed = stencilRow(piece, row, covered, passed);
-    if (state.depthWrite) select(passed, depth, stored).store(&depth_[offset]);
-    if (!state.idWrite) return;
-    for (int i = 0; i < kBlockSize; i++)
-        if (passed[i]) id_[offset + static_cast<size_t>(i)] = piece.id;
+    const GroupInt stored = GroupInt::load(&depth_[group.offset]);
+    const GroupInt depth = pieceDepth.at(e, format_);
+    GroupMask passed = covered && compareValues<GroupMask>(state.depthCompare, depth, stored);
+    if (state.stencil.enabled) passed = testStencil(piece, group, covered, passed);
+    if (state.depthWrite) select(passed, depth, stored).store(&depth_[group.offset]);
+    if (state.idWrite)
+        select(passed, splat(static_cast<int32_t>(piece.id)), GroupInt::load(&id_[group.offset]))
+            .store(&id_[group.offset]);
 }
 
 // Runs the stencil test and operations; returns the samples that pass both tests.
-BlockMask TileRasterizer::stencilRow(const Piece& piece, const BlockRow& row, BlockMask covered,
-                                     BlockMask depthPassed) {
+GroupMask TileRasterizerOfLevel::testStencil(const Piece& piece, const Group& group, GroupMask covered,
+                                             GroupMask depthPassed) {
     const StencilState& stencil = piece.state->stencil;
     const StencilFace& face = piece.front ? stencil.front : stencil.back;
-    const size_t offset = rowOffset(row);
-    BlockMask passed(false);
-    for (int i = 0; i < kBlockSize; i++) {
+    GroupMask passed(false);
+    for (int i = 0; i < kGroup; i++) {
         if (!covered[i]) continue;
-        uint8_t& stored = stencil_[offset + static_cast<size_t>(i)];
+        uint8_t& stored = stencil_[group.offset + static_cast<size_t>(i)];
         StencilOperation operation = face.onStencilFail;
         if (compareValues<bool>(face.compare, stencil.reference & stencil.readMask,
                                 stored & stencil.readMask)) {
@@ -335,5 +521,9 @@ BlockMask TileRasterizer::stencilRow(const Piece& piece, const BlockRow& row, Bl
     }
     return passed;
 }
+
+}  // namespace
+
+std::unique_ptr<TileRasterizer> makeTileRasterizer() { return std::make_unique<TileRasterizerOfLevel>(); }
 
 }  // namespace etalon

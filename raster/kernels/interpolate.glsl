@@ -4,13 +4,13 @@ real min3(vec3 a) { return minOf(minOf(a.x, a.y), a.z); }
 real max3(vec3 a) { return maxOf(maxOf(a.x, a.y), a.z); }
 
 // Depth, linear in screen space, inside the hull of the vertex depths. e: edge values, each rounded once;
-// r: reciprocal of the area.
-real interpolateDepth(vec3 e, real r, vec3 z) {
+// r: reciprocal of the area; lowest, highest: min3(z) and max3(z).
+real interpolateDepth(vec3 e, real r, vec3 z, real lowest, real highest) {
     real l_0 = e.x * r;
     real l_1 = e.y * r;
     real l_2 = e.z * r;
     real sum = l_0 * z.x + (l_1 * z.y + l_2 * z.z);
-    return clampOf(sum, min3(z), max3(z));
+    return clampOf(sum, lowest, highest);
 }
 
 // Perspective-correct barycentric weights. e: edge values scaled so that the area is in [1, 2); q: reciprocals of

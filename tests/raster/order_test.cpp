@@ -91,7 +91,7 @@ RenderTargetFormat randomFormat(Random& random, std::initializer_list<int> sampl
 
 bool samePlanes(const RenderTarget& a, const RenderTarget& b) {
     return a.depth == b.depth && a.stencil == b.stencil && a.id == b.id &&
-           a.triangles.size() == b.triangles.size();
+           a.triangleCount() == b.triangleCount();
 }
 
 }  // namespace
@@ -160,7 +160,7 @@ TEST_CASE("SubmissionOrderDecidesEqualDepths") {
             for (uint32_t id : target.id.values()) {
                 if (id == kNoTriangle) continue;
                 covered++;
-                const TriangleRecord& record = target.triangles.at(id);
+                const TriangleRecord record = target.triangle(id);
                 wrong += record.draw != (firstWins ? 0u : 3u) || record.triangle != (firstWins ? 0u : 1u);
             }
             CHECK(wrong == 0);

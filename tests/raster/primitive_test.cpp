@@ -31,8 +31,8 @@ TEST_CASE("SnappingRoundsToNearestEven") {
             RenderTargetFormat format;
             format.subpixelBits = bits;
             const RenderTarget target = drawTriangles(viewport, vertices, alwaysState(), format);
-            REQUIRE(target.triangles.size() == 1);
-            const TriangleRecord& record = target.triangles[0];
+            REQUIRE(target.triangleCount() == 1);
+            const TriangleRecord record = target.triangle(0);
             for (size_t i = 0; i < 3; i++)
                 if (record.corner[i] == 0) {
                     CHECK(record.x_subpx[i] == snapped);
@@ -46,17 +46,18 @@ TEST_CASE("FacingComesFromTheSnappedPositions") {
     const Viewport viewport{0, 0, 16, 16};
     // Counter-clockwise as given; the middle vertex snaps to the other side of the line between the others.
     const double unit = 1.0 / 256;
-    const std::vector<ClipVertex> flips = {vertexAtPixel(viewport, 1, 1, 1, 0.5),
-                                           vertexAtPixel(viewport, 15 + 0.4 * unit, 1 + 1.4 * unit, 1, 0.5),
-                                           vertexAtPixel(viewport, 8 + 0.49 * unit, 1 + 0.51 * unit, 1, 0.5)};
+    const std::vector<ClipVertex> flips = {
+        vertexAtPixel(viewport, 1, 1.5, 1, 0.5),
+        vertexAtPixel(viewport, 15 + 0.4 * unit, 1.5 + 1.4 * unit, 1, 0.5),
+        vertexAtPixel(viewport, 8 + 0.49 * unit, 1.5 + 0.51 * unit, 1, 0.5)};
     const auto area = [](const std::vector<ClipVertex>& v) {
         return (v[1].x - v[0].x) * (v[2].y - v[0].y) - (v[2].x - v[0].x) * (v[1].y - v[0].y);
     };
     REQUIRE(area(flips) > 0);  // y up: counter-clockwise, the front
     DrawState state = alwaysState();
     RenderTarget target = drawTriangles(viewport, flips, state);
-    REQUIRE(target.triangles.size() == 1);
-    CHECK_FALSE(target.triangles[0].front);
+    REQUIRE(target.triangleCount() == 1);
+    CHECK_FALSE(target.triangle(0).front);
     RasterStatistics statistics;
     state.cull = CullMode::back;
     drawTriangles(viewport, flips, state, {}, &statistics);
@@ -72,7 +73,7 @@ TEST_CASE("FacingComesFromTheSnappedPositions") {
             const bool culled = cull == (clockwise ? CullMode::back : CullMode::front);
             CHECK(statistics.culled == (culled ? 1 : 0));
             CHECK((target.id.at(8, 8) == kNoTriangle) == culled);
-            if (!culled) CHECK(target.triangles.at(0).front == !clockwise);
+            if (!culled) CHECK(target.triangle(0).front == !clockwise);
         }
 }
 
@@ -120,7 +121,7 @@ TEST_CASE("NonFiniteAndHugeTrianglesAreDroppedAndCounted") {
                 triangle[vertex].*coordinate = bad;
                 const RenderTarget target = drawTriangles(viewport, triangle, alwaysState(), {}, &statistics);
                 CHECK(statistics.droppedNonFinite == 1);
-                CHECK(target.triangles.empty());
+                CHECK(target.triangleCount() == 0);
                 CHECK(target.id.at(4, 4) == kNoTriangle);
             }
             // The largest magnitude that is not dropped.

@@ -119,20 +119,22 @@ std::string describe(const RenderTarget& actual, const Target& expected, uint32_
                      uint32_t expectedId) {
     if (actualId == kNoTriangle || expectedId == kNoTriangle)
         return actualId == expectedId ? "" : fmt::format("id {} instead of {}", actualId, expectedId);
-    if (actualId >= actual.triangles.size()) return fmt::format("id {} has no record", actualId);
-    const TriangleRecord& a = actual.triangles[actualId];
+    if (actualId >= actual.triangleCount()) return fmt::format("id {} has no record", actualId);
+    const TriangleRecord a = actual.triangle(actualId);
     const Record& e = expected.records[expectedId];
     if (a.draw != e.draw || a.triangle != e.triangle)
         return fmt::format("triangle {}.{} instead of {}.{}", a.draw, a.triangle, e.draw, e.triangle);
     if (a.front != e.front || a.area != e.piece.area) return "facing or area of the record";
-    if ((a.clipped >= 0) != e.clipped) return "clipped flag of the record";
+    if (a.clipped != e.clipped) return "clipped flag of the record";
     for (size_t i = 0; i < 3; i++) {
         if (a.x_subpx[i] != e.piece.x_subpx[i] || a.y_subpx[i] != e.piece.y_subpx[i])
             return "snapped positions of the record";
-        if (a.z[i] != e.piece.z[i] / e.piece.w[i] || a.reciprocalW[i] != 1 / e.piece.w[i])
-            return "depth or 1/w of the record";
+        const double z = actual.format.real == RasterReal::fp32
+                             ? static_cast<double>(vertexDepths<float>(e.piece)[i])
+                             : vertexDepths<double>(e.piece)[i];
+        if (a.z[i] != z || a.reciprocalW[i] != 1 / e.piece.w[i]) return "depth or 1/w of the record";
         if (!e.clipped && a.corner[i] != e.piece.corner[i]) return "corners of the record";
-        if (e.clipped && actual.clippedCorners[static_cast<size_t>(a.clipped)][i] != e.piece.barycentric[i])
+        if (e.clipped && actual.barycentric(actualId, i) != e.piece.barycentric[i])
             return "barycentric coordinates of the record";
     }
     return "";
