@@ -1,0 +1,35 @@
+// An image file of the kind that its first bytes say: refused with one line, or the frame is sound, reads the
+// same again, and can be written as an EXR that holds its bits.
+#include "ar/compare.h"
+#include "ar/image_io.h"
+#include "tests/fuzz/fuzz.h"
+
+using namespace etalon;
+
+namespace {
+
+std::string_view extensionOf(std::string_view bytes) {
+    if (bytes.starts_with("\x89PNG")) return ".png";
+    if (bytes.starts_with("#?")) return ".hdr";
+    if (bytes.starts_with("II") || bytes.starts_with("MM")) return ".tif";
+    if (bytes.starts_with("PF") || bytes.starts_with("Pf")) return ".pfm";
+    return ".exr";
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+    static const test::ScratchFolder folder;
+    const std::string_view bytes = fuzz::textOf(data, size);
+    const std::filesystem::path file = folder / ("a" + std::string(extensionOf(bytes)));
+    fuzz::writeFile(file, bytes);
+    Frame frame;
+    fuzz::isAccepted(file, [&] { readRgb(file); });
+    if (!fuzz::isAccepted(file, [&] { frame = readFrame(file); })) return 0;
+    checkFrame(frame);
+    FUZZ_CHECK(compareFrames(frame, readFrame(file)).identical());
+    const std::filesystem::path copy = folder / "copy.exr";
+    writeExr(frame, copy);
+    FUZZ_CHECK(compareFrames(frame, readFrame(copy)).identical());
+    return 0;
+}
