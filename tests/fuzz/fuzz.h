@@ -9,7 +9,6 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <new>
 #include <span>
 #include <string>
 #include <string_view>
@@ -65,8 +64,8 @@ inline std::string_view textOf(const uint8_t* data, size_t size) {
 }
 
 // Calls read() on a file made of the input. True when it returns; false when it refuses the input as it
-// should: an InputError of one line that begins with `place`, or not enough memory. Any other exception is a
-// defect and ends the program.
+// should: with an InputError of one line that begins with `place`. Any other exception is a defect and ends
+// the program.
 template <class Read>
 bool isAccepted(const std::filesystem::path& place, Read read) {
     try {
@@ -78,7 +77,6 @@ bool isAccepted(const std::filesystem::path& place, Read read) {
             std::fprintf(stderr, "not one line with its place: %s\n", error.what());
             std::abort();
         }
-    } catch (const std::bad_alloc&) {
     }
     return false;
 }
