@@ -1,8 +1,11 @@
-// Triangles of arbitrary bits with arbitrary state: the rasterizer ends, and its result does not depend on
-// the size of the tiles nor on the number of threads.
+// Triangles of arbitrary bits with arbitrary state: the rasterizer ends, and its result does not depend on the
+// size of the tiles, the number of threads, nor the instruction set level.
+#include <algorithm>
+#include <iterator>
 #include <limits>
 #include <vector>
 
+#include "numeric/isa.h"
 #include "raster/rasterizer.h"
 #include "tests/fuzz/fuzz.h"
 
@@ -144,8 +147,11 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     const Drawing drawing = takeDrawing(bytes);
     const Drawn expected = drawn(drawing, {1, 64});
     checkIds(expected.target, drawing.viewport);
-    for (const RasterOptions options : {RasterOptions{1, 8}, RasterOptions{3, 16}}) {
-        const Drawn other = drawn(drawing, options);
+    constexpr RasterOptions kCuts[] = {{1, 8}, {3, 16}};
+    const std::vector<IsaLevel>& levels = usableIsaLevels();
+    for (size_t i = 0; i < std::max(levels.size(), std::size(kCuts)); i++) {
+        selectIsa(levels[i % levels.size()]);
+        const Drawn other = drawn(drawing, kCuts[i % std::size(kCuts)]);
         FUZZ_CHECK(other.statistics == expected.statistics);
         FUZZ_CHECK(other.target.depth == expected.target.depth &&
                    other.target.stencil == expected.target.stencil);
