@@ -1,5 +1,5 @@
-// An image file of the kind that its first bytes say: refused with one line, or the frame is sound, reads the
-// same again, and can be written as an EXR that holds its bits.
+// An image file of the kind that its first bytes say: refused with one line, or the frame is sound and can be written
+// as an EXR that holds its bits.
 #include "ar/compare.h"
 #include "ar/image_io.h"
 #include "tests/fuzz/fuzz.h"
@@ -33,7 +33,6 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     if (frame.channels.size() * static_cast<size_t>(frame.width) * static_cast<size_t>(frame.height) >
         kMaxWrittenSamples)
         return 0;
-    FUZZ_CHECK(compareFrames(frame, readFrame(file)).identical());
     const std::filesystem::path copy = folder / "copy.exr";
     writeExr(frame, copy);
     FUZZ_CHECK(compareFrames(frame, readFrame(copy)).identical());
