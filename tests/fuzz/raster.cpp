@@ -1,5 +1,5 @@
-// Triangles of arbitrary bits with arbitrary state: the rasterizer ends, and its result does not depend on the
-// size of the tiles, the number of threads, nor the instruction set level.
+// Triangles of arbitrary bits with arbitrary state: the rasterizer ends, and its result does not depend on
+// the size of the tiles, the number of threads, nor the instruction set level.
 #include <algorithm>
 #include <iterator>
 #include <limits>
