@@ -34,7 +34,7 @@ struct Node {
         if (!json.is_object()) fail("must be an object");
         for (const auto& item : json.items())
             if (std::ranges::find(known, item.key()) == known.end())
-                fail(fmt::format("unknown key \"{}\"", item.key()));
+                fail(fmt::format("unknown key {}", Json(item.key()).dump()));
     }
     std::string text() const {
         if (!json.is_string() || json.get_ref<const std::string&>().empty())
@@ -115,8 +115,9 @@ GoldenManifest readManifest(const std::filesystem::path& file) {
     Json json;
     try {
         json = Json::parse(stream);
-    } catch (const Json::parse_error& error) {
-        // what() begins with a number of the library in brackets; the rest names line and column.
+    } catch (const Json::exception& error) {
+        // A syntax error, or a number beyond the range of double. what() begins with a number of the library
+        // in brackets; for a syntax error the rest names line and column.
         const std::string_view what = error.what();
         throw InputError(
             fmt::format("{}: not valid JSON: {}", file.string(), what.substr(what.find(']') + 2)));

@@ -10,6 +10,7 @@
 #include <fstream>
 #include <functional>
 #include <memory>
+#include <new>
 #include <span>
 #include <string>
 #include <string_view>
@@ -154,6 +155,16 @@ void checkSpec(OIIO::ImageInput& input, const std::filesystem::path& path) {
     if (!input.seek_subimage(0, 0)) fail(path, "not a readable image: " + firstLine(input.geterror()));
 }
 
+// What read() returns; InputError when the memory for it cannot be had.
+template <class Read>
+auto withinMemory(const std::filesystem::path& path, Read read) {
+    try {
+        return read();
+    } catch (const std::bad_alloc&) {
+        fail(path, "there is not enough memory to read it");
+    }
+}
+
 // One plane out of interleaved pixels of pixelBytes each.
 template <class T>
 Image<T> unpackPlane(const OIIO::ImageSpec& spec, const std::byte* samples, size_t pixelBytes,
@@ -196,9 +207,7 @@ std::vector<std::byte> encode(const std::string& formatName, const OIIO::ImageSp
     return {bytes.begin(), bytes.end()};
 }
 
-}  // namespace
-
-Frame readFrame(const std::filesystem::path& path) {
+Frame readWhole(const std::filesystem::path& path) {
     const auto input = openInput(path);
     checkSpec(*input, path);
     const OIIO::ImageSpec spec = input->spec();
@@ -234,8 +243,7 @@ Frame readFrame(const std::filesystem::path& path) {
     return frame;
 }
 
-Image<float> readRgb(const std::filesystem::path& path) {
-    const Frame frame = readFrame(path);
+Image<float> rgbOf(const Frame& frame, const std::filesystem::path& path) {
     std::array<const Channel*, 3> sources = {frame.find("R"), frame.find("G"), frame.find("B")};
     if (!sources[0] || !sources[1] || !sources[2]) {
         const Channel* grey = frame.find("Y");
@@ -252,6 +260,16 @@ Image<float> readRgb(const std::filesystem::path& path) {
         std::ranges::copy(image->values(), rgb.plane(c).begin());
     }
     return rgb;
+}
+
+}  // namespace
+
+Frame readFrame(const std::filesystem::path& path) {
+    return withinMemory(path, [&] { return readWhole(path); });
+}
+
+Image<float> readRgb(const std::filesystem::path& path) {
+    return withinMemory(path, [&] { return rgbOf(readWhole(path), path); });
 }
 
 std::vector<std::byte> encodeExr(const Frame& frame) {

@@ -18,7 +18,8 @@ inline constexpr uint64_t kMaxFrameBytes = uint64_t{8} << 30;
 // left as stored; uint32 samples stay uint32_t. Row 0 is the top row; the size is that of the data window.
 // metadata: the file's text attributes but for those that describe its encoding.
 // Throws InputError "path: reason", one line: missing, empty, truncated or damaged file, no image format,
-// zero or absurd size (the memory it would need is named), several or deep images, other sample types.
+// zero or absurd size (the memory it would need is named), several or deep images, other sample types, more
+// memory needed than can be had.
 Frame readFrame(const std::filesystem::path& path);
 
 // Three planes R, G, B; a single grey channel ("Y", or the only one besides "A") is replicated. Values as in

@@ -56,6 +56,7 @@ struct PlanRequest {
 
 Plan makePlan(const Scene& scene, const PlanRequest& request, const VisibilityFacts* facts = nullptr);
 
+// One line for each pass, then the memory.
 std::string planText(const Plan& plan);
 std::string planJson(const Plan& plan);
 // Graphviz: an arrow from a pass to each pass that reads its result; passes that do not run are dashed.

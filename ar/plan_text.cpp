@@ -5,15 +5,17 @@
 #include <nlohmann/json.hpp>
 
 #include "ar/plan.h"
+#include "ar/toml_reader.h"
 
 namespace etalon {
 
 std::string planText(const Plan& plan) {
     size_t widest = 0;
-    for (const PlanPass& pass : plan.passes) widest = std::max(widest, pass.name.size());
+    for (const PlanPass& pass : plan.passes) widest = std::max(widest, printable(pass.name).size());
     std::string text;
     for (const PlanPass& pass : plan.passes)
-        text += fmt::format("{}  {:<{}}  {}\n", pass.runs ? "run " : "skip", pass.name, widest, pass.reason);
+        text += fmt::format("{}  {:<{}}  {}\n", pass.runs ? "run " : "skip", printable(pass.name), widest,
+                            pass.reason);
     text += fmt::format("memory: {:.1f} MiB at most for targets and images\n",
                         static_cast<double>(plan.memory_bytes) / (1 << 20));
     return text;

@@ -31,8 +31,8 @@ void nameObjects(const TableReader& top, Scene& scene) {
         if (name.empty()) name = fmt::format("{}{}", prefix, index);
         const auto [entry, isNew] = lines.emplace(name, line);
         if (!isNew)
-            top.fail(line,
-                     fmt::format("'name': '{}' is taken by the object at line {}", name, entry->second));
+            top.fail(line, fmt::format("'name': '{}' is taken by the object at line {}", printable(name),
+                                       entry->second));
     };
     for (size_t i = 0; i < scene.meshes.size(); i++)
         take(scene.meshes[i].name, "mesh", i, scene.meshes[i].line);

@@ -117,8 +117,8 @@ MeshObject readMesh(const std::string& file, const TomlValue& value, const std::
     mesh.material = findMaterial(reader, materials);
     const Material& material = materials[mesh.material];
     if (material.checker)
-        reader.failKey("material",
-                       fmt::format("'{}' has a checker, which only planes can show", material.name));
+        reader.failKey("material", fmt::format("'{}' has a checker, which only planes can show",
+                                               printable(material.name)));
 
     const glm::dmat4 own = readTransform(reader);
     if (reader.has("instances") && reader.tables("instances").empty())

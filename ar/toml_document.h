@@ -26,8 +26,8 @@ struct TomlValue {
 // The largest scene file that is read, in bytes.
 inline constexpr uintmax_t kMaxTomlBytes = 64u << 20;
 
-// Reads a TOML 1.0 file; characters outside ASCII may stand only in comments and one-line strings. InputError
-// when it is missing, not a regular file, too large or not valid TOML; the message has the line of the error.
+// Reads a TOML 1.0 file. InputError when it is missing, not a regular file, too large or not valid TOML; the
+// message has the line of the error.
 TomlValue readToml(const std::filesystem::path& path);
 
 }  // namespace etalon

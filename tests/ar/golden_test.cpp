@@ -291,6 +291,8 @@ TEST_CASE("ManifestDefectsAreNamed") {
     CHECK(manifestError("{").find("line 1") != std::string::npos);
     CHECK(manifestError("[]").find("must be an object") != std::string::npos);
     CHECK(manifestError(R"({"case": []})").find("unknown key \"case\"") != std::string::npos);
+    CHECK(manifestError("{\"a\\nb\": 0}").find(R"(unknown key "a\nb")") != std::string::npos);
+    CHECK(manifestError("1e999").find("not valid JSON: number overflow") != std::string::npos);
     CHECK(manifestError(R"({})").find("\"cases\" is missing") != std::string::npos);
     CHECK(manifestError(R"({"cases": [{"name": "../up"}]})").find("cases[0].name") != std::string::npos);
     CHECK(manifestError(R"({"cases": [{"name": "a", "scene": 3}]})").find("cases[0].scene") !=

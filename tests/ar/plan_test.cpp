@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -176,6 +177,15 @@ TEST_CASE("EveryPassHasAReasonAndNeedsPassesOfThePlan") {
         CHECK(planText(plan).find("run   visibility") != std::string::npos);
         CHECK(planDot(plan).find("\"visibility\" -> ") != std::string::npos);
     }
+}
+
+TEST_CASE("PlanTextHasOneLineAPass") {
+    Scene scene = fullScene();
+    for (MeshObject& mesh : scene.meshes) mesh.name = "a\nb";
+    const Plan plan = makePlan(scene, {});
+    const std::string text = planText(plan);
+    CHECK(text.find("cube map of a?b") != std::string::npos);
+    CHECK(std::ranges::count(text, '\n') == static_cast<std::ptrdiff_t>(plan.passes.size()) + 1);
 }
 
 TEST_CASE("MemoryGrowsWithPixelsAndSamples") {

@@ -226,14 +226,16 @@ TEST_CASE("SyntaxAndStructureErrorsNameTheLine") {
 
 TEST_CASE("CharactersOutsideAsciiStandInCommentsAndStringsOnly") {
     checkAll({
-        {38, "n\u00e4me = 'x'", 38, {"outside ASCII"}},
-        {38, "name = 'x' \u00e4", 38, {"outside ASCII"}},
-        {38, "name = \"\"\"it's\n\u00e4\"\"\"", 39, {"outside ASCII"}},
-        {38, "name = \"\\\u00e4\"", 38, {"outside ASCII"}},
+        {38, "n\u00e4me = 'x'", 38, {"not valid TOML"}},
+        {38, "name = 'x' \u00e4", 38, {"not valid TOML"}},
+        {38, "name = \"\\\u00e4\"", 38, {"not valid TOML"}},
+        {38, "name = ++'\u01d1'", 38, {"not valid TOML"}},
+        {38, "name =\u00a0'x'", 38, {"not valid TOML"}},
     });
     const SceneFolder folder;
     for (const char* line :
-         {"name = 'Stra\u00dfe'  # gr\u00fcn", "name = \"\\\"\u00e4\"", "name = '''Don't'''  # \u00e4"})
+         {"name = 'Stra\u00dfe'  # gr\u00fcn", "name = \"\\\"\u00e4\"", "name = '''Don't'''  # \u00e4",
+          "name = \"\"\"it's \u00e4 \\\n  \u01d1 \u3001\"\"\""})
         CHECK(errorOf(folder, sceneText(38, line)) == "no error");
     CHECK(errorOf(folder, "\xef\xbb\xbf" + sceneText()) == "no error");
 }
@@ -394,6 +396,23 @@ TEST_CASE("CheckersStayOnPlanes") {
         text.erase(text.find(line), std::string(line).size());
     text.replace(text.find("'chrome'"), 8, "'red'");
     CHECK(errorOf(folder, text).find("only planes") != std::string::npos);
+}
+
+TEST_CASE("NamesWithLineBreaksLeaveMessagesOneLine") {
+    const SceneFolder folder;
+    std::string taken = sceneText(30, R"(name = "a\nb")");
+    taken.replace(taken.find("'floor'"), 7, R"("a\nb")");
+    CHECK(errorOf(folder, taken) ==
+          folder.file().string() + ":37: 'name': 'a?b' is taken by the object at line 29");
+
+    std::string checked = sceneText(26, "[material.\"a\\nb\"]");
+    const std::string mirror = kGoodScene[26] + "\n" + kGoodScene[27];
+    checked.replace(checked.find(mirror), mirror.size(),
+                    "kind = 'lambert'\ndiffuse = [0, 0, 0]\nchecker = [0, 0, 0]\nchecker_size_m = 1");
+    checked.replace(checked.find("'chrome'"), 8, R"("a\nb")");
+    const std::string message = errorOf(folder, checked);
+    CHECK(message.find("'a?b' has a checker") != std::string::npos);
+    CHECK(message.find('\n') == std::string::npos);
 }
 
 TEST_CASE("ShippedScenesLoad") {
