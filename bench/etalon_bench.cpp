@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "bench/measure.h"
 #include "bench/passes.h"
+#include "numeric/isa.h"
 #include "raster/blur.h"
 
 namespace etalon::bench {
@@ -36,111 +38,133 @@ double coveredPixels(const VisibleScene& visible) {
            static_cast<double>(std::count(ids.begin(), ids.end(), kNoTriangle));
 }
 
-void add(const std::string& name, int threads, std::function<void(benchmark::State&)> body) {
-    benchmark::RegisterBenchmark((name + "/threads:" + std::to_string(threads)).c_str(), std::move(body))
+// How a pass runs: the profile, the threads, and an instruction set level other than the widest.
+struct Way {
+    std::string profile = "f32";
+    int threads = 1;
+    std::optional<IsaLevel> level = {};
+};
+
+void add(const std::string& name, const Way& way, std::function<void(benchmark::State&)> body) {
+    const std::string level = way.level ? std::string("-") + isaName(*way.level) : "";
+    const std::string full = name + "/" + way.profile + level + "/threads:" + std::to_string(way.threads);
+    benchmark::RegisterBenchmark(full.c_str(),
+                                 [=](benchmark::State& state) {
+                                     const IsaLevel before = activeIsa();
+                                     if (way.level) selectIsa(*way.level);
+                                     body(state);
+                                     selectIsa(before);
+                                 })
         ->Unit(benchmark::kMillisecond)
+        ->MeasureProcessCPUTime()
         ->UseRealTime();
 }
 
 // Touches the mesh, and depth, id and stencil of each sample.
-void addDepth(const std::string& name, const std::string& profile, int threads, int samples = 1) {
-    add((samples == 4 ? "depth-msaa4/" : "depth/") + name + "/" + profile, threads,
-        [=](benchmark::State& state) {
-            const Workload& w = workload(name, 1);
-            const PlacedWorkload work = place(w, profile);
-            const Amount amount{
-                .triangles = static_cast<double>(w.triangles()),
-                .bytes_touched =
-                    meshBytes(w) + pixelsOf(w.view) * static_cast<size_t>(samples) * kSample_bytes};
-            measure(state, amount, [&] { return drawDepth(work, samples, {.threads = threads}); });
-        });
+void addDepth(const std::string& name, const Way& way, int samples = 1) {
+    add((samples == 4 ? "depth-msaa4/" : "depth/") + name, way, [=](benchmark::State& state) {
+        const Workload& w = workload(name, 1);
+        const PlacedWorkload work = place(w, way.profile);
+        const Amount amount{
+            .triangles = static_cast<double>(w.triangles()),
+            .bytes_touched = meshBytes(w) + pixelsOf(w.view) * static_cast<size_t>(samples) * kSample_bytes};
+        measure(state, amount, [&] { return drawDepth(work, samples, {.threads = way.threads}); });
+    });
 }
 
 // Touches the mesh with its normals, the samples, and three channels of radiance per pixel. Pixels count
 // where something is drawn.
-void addShaded(const std::string& name, int lights, const std::string& profile, int threads,
-               int samples = 1) {
-    add(shadedPass(lights, samples) + "/" + name + "/" + profile, threads, [=](benchmark::State& state) {
+void addShaded(const std::string& name, int lights, const Way& way, int samples = 1) {
+    add(shadedPass(lights, samples) + "/" + name, way, [=](benchmark::State& state) {
         const Workload& w = workload(name, lights);
-        const PlacedWorkload work = place(w, profile);
+        const PlacedWorkload work = place(w, way.profile);
         const Amount amount{
             .triangles = static_cast<double>(w.triangles()),
             .pixels = coveredPixels(drawDepth(work, 1, {})),
             .bytes_touched =
                 meshBytes(w) + normalBytes(w) +
                 pixelsOf(w.view) * (static_cast<size_t>(samples) * kSample_bytes + kRadiance_bytes)};
-        measure(state, amount, [&] { return drawShaded(work, samples, {.threads = threads}); });
+        measure(state, amount, [&] { return drawShaded(work, samples, {.threads = way.threads}); });
     });
 }
 
 // Pixels count once per layer; the bytes are those of one layer, as tiles stay in the cache.
-void addFill(int threads) {
-    add("fill/layers/f32", threads, [=](benchmark::State& state) {
+void addFill(const Way& way) {
+    add("fill/layers", way, [=](benchmark::State& state) {
         const Workload& w = workload("layers", 1);
-        const PlacedWorkload work = place(w, "f32");
+        const PlacedWorkload work = place(w, way.profile);
         const Amount amount{.pixels = static_cast<double>(kLayers) * static_cast<double>(pixelsOf(w.view)),
                             .bytes_touched = pixelsOf(w.view) * kSample_bytes};
-        measure(state, amount, [&] { return drawDepth(work, 1, {.threads = threads}); });
+        measure(state, amount, [&] { return drawDepth(work, 1, {.threads = way.threads}); });
     });
 }
 
 // Touches the mesh with its normals once, and per texel the sample, radiance and distance.
-void addCube(int threads) {
-    add("cube/70k/f32", threads, [=](benchmark::State& state) {
+void addCube(const Way& way) {
+    add("cube/70k", way, [=](benchmark::State& state) {
         const Workload& w = workload("70k", 1);
-        const PlacedWorkload work = place(w, "f32");
+        const PlacedWorkload work = place(w, way.profile);
         constexpr size_t kTexels = size_t{kCubeFaces} * kCubeSize * kCubeSize;
         const Amount amount{.pixels = static_cast<double>(kTexels),
                             .bytes_touched = meshBytes(w) + normalBytes(w) +
                                              kTexels * (kSample_bytes + kRadiance_bytes + kDistance_bytes)};
-        measure(state, amount, [&] { return drawCube(work, {.threads = threads}); });
+        measure(state, amount, [&] { return drawCube(work, {.threads = way.threads}); });
     });
 }
 
 // Touches the image before and after.
-void addBlur(int threads) {
-    add("blur/1024/f32", threads, [=](benchmark::State& state) {
+void addBlur(const Way& way) {
+    add("blur/1024", way, [=](benchmark::State& state) {
         const Image<float> image = blurInput();
         const Amount amount{.pixels = static_cast<double>(image.pixelCount()),
                             .bytes_touched = 2 * image.pixelCount() * sizeof(float)};
-        measure(state, amount, [&] { return blurGaussian(image, kBlurRadius, kBlurSigma, threads); });
+        measure(state, amount, [&] { return blurGaussian(image, kBlurRadius, kBlurSigma, way.threads); });
     });
 }
 
 // Touches the texels of the lat-long image and of the cube map.
-void addCubeFromLatLong(const std::string& profile, int threads) {
-    add("latlong-to-cube/1024/" + profile, threads, [=](benchmark::State& state) {
+void addCubeFromLatLong(const Way& way) {
+    add("latlong-to-cube/1024", way, [=](benchmark::State& state) {
         SurfaceEnvironment environment;
         environment.latLong = latLongInput();
-        const Profile& found = *findProfile(profile);
+        const Profile& found = *findProfile(way.profile);
         constexpr size_t kTexels = size_t{kCubeFaces} * kLatLongCubeSize * kLatLongCubeSize;
         const Amount amount{.pixels = static_cast<double>(kTexels),
                             .bytes_touched = (environment.latLong.pixelCount() + kTexels) * kRadiance_bytes};
-        measure(state, amount, [&] { return environmentCube(environment, found, threads); });
+        measure(state, amount, [&] { return environmentCube(environment, found, way.threads); });
     });
 }
 
 void addAll() {
     for (const int threads : {1, 2}) {
+        const Way way{.threads = threads};
         for (const char* name : {"1k", "70k", "870k", "large", "sub-pixel"}) {
-            addDepth(name, "f32", threads);
-            addShaded(name, 1, "f32", threads);
+            addDepth(name, way);
+            addShaded(name, 1, way);
         }
-        for (const char* name : {"1k", "70k", "870k"}) addShaded(name, 64, "f32", threads);
-        addDepth("70k", "f32", threads, 4);
-        addShaded("70k", 1, "f32", threads, 4);
-        addFill(threads);
-        addCube(threads);
-        addBlur(threads);
-        addCubeFromLatLong("f32", threads);
+        for (const char* name : {"1k", "70k", "870k"}) addShaded(name, 64, way);
+        addDepth("70k", way, 4);
+        addShaded("70k", 1, way, 4);
+        addFill(way);
+        addCube(way);
+        addBlur(way);
+        addCubeFromLatLong(way);
     }
+    for (const IsaLevel level : usableIsaLevels()) {
+        const Way way{.level = level};
+        addDepth("70k", way);
+        addShaded("1k-small", 64, way);
+        addBlur(way);
+        addCubeFromLatLong(way);
+    }
+    addShaded("1k-small", 64, {});
     for (const char* profile : {"f64", "r300-fp24", "nv40-fp16", "fp16", "bf16"}) {
-        addShaded("70k", 1, profile, 1);
-        addShaded("1k-small", 1, profile, 1);
-        addCubeFromLatLong(profile, 1);
+        addShaded("70k", 1, {.profile = profile});
+        addShaded("1k-small", 1, {.profile = profile});
+        addCubeFromLatLong({.profile = profile});
     }
-    addShaded("1k-small", 1, "f32", 1);
-    addShaded("1k-small", 1, "truth", 1);
+    addShaded("1k-small", 1, {});
+    addShaded("1k-small", 1, {.profile = "truth"});
 }
 
 }  // namespace

@@ -92,6 +92,7 @@ void addShading(const char* name, Shade shade) {
             });
         })
         ->Unit(benchmark::kMillisecond)
+        ->MeasureProcessCPUTime()
         ->UseRealTime();
 }
 
@@ -110,6 +111,7 @@ void addLibrary() {
                     [&] { return shadeVisible(work, visible, options); });
         })
         ->Unit(benchmark::kMillisecond)
+        ->MeasureProcessCPUTime()
         ->UseRealTime();
 }
 
@@ -161,6 +163,7 @@ void addCoverage(const std::string& workloadName, const char* name, EdgeArithmet
                                              [&] { return count(arithmetic, covered); });
                                  })
         ->Unit(benchmark::kMillisecond)
+        ->MeasureProcessCPUTime()
         ->UseRealTime();
 }
 

@@ -123,6 +123,7 @@ void add(Peer& peer, const std::string& name, VkCommandBuffer commands) {
                                      for (auto _ : state) peer.device.run(commands);
                                  })
         ->Unit(benchmark::kMillisecond)
+        ->MeasureProcessCPUTime()
         ->UseRealTime();
 }
 
