@@ -130,7 +130,7 @@ void add(Peer& peer, const std::string& name, VkCommandBuffer commands) {
 void addAll(Peer& peer) {
     for (const char* name : {"1k", "70k", "870k", "large", "sub-pixel"}) {
         const Workload& w = workload(name, 1);
-        const PeerPass depth = peer.passes.depth(w);
+        const PeerPass depth = peer.passes.depth(w, 1);
         compareDepth(peer, depth, std::string("depth/") + name, w);
         add(peer, std::string("depth/") + name, depth.commands);
     }
@@ -143,9 +143,10 @@ void addAll(Peer& peer) {
     for (const char* name : {"1k", "70k", "870k", "large", "sub-pixel"})
         addShaded(name, 1, 1, std::string("lights1/") + name);
     for (const char* name : {"1k", "70k", "870k"}) addShaded(name, 64, 1, std::string("lights64/") + name);
+    add(peer, "depth-msaa4/70k", peer.passes.depth(workload("70k", 1), 4).commands);
     addShaded("70k", 1, 4, "lights1-msaa4/70k");
 
-    const PeerPass layers = peer.passes.depth(workload("layers", 1));
+    const PeerPass layers = peer.passes.depth(workload("layers", 1), 1);
     compareDepth(peer, layers, "fill/layers", workload("layers", 1));
     add(peer, "fill/layers", layers.commands);
     const PeerPass cube = peer.passes.cube(workload("70k", 1));

@@ -85,15 +85,16 @@ void PeerPasses::draw(VkCommandBuffer commands, const MeshBuffers& mesh, bool wi
     vkCmdDrawIndexed(commands, mesh.indexCount, 1, 0, 0, 0);
 }
 
-PeerPass PeerPasses::depth(const Workload& w) {
+PeerPass PeerPasses::depth(const Workload& w, int samples) {
     const MeshBuffers mesh = upload(w.mesh());
     PipelineDescription d;
     d.vertexShader = kDepthVert;
     d.input = VertexInput::positions;
     d.depth = true;
+    d.samples = samples;
     const Pipeline pipeline = makePipeline(device_, d);
     PeerPass pass;
-    pass.depth = depthImage(w.view.width, w.view.height, 1);
+    pass.depth = depthImage(w.view.width, w.view.height, samples);
     pass.commands = device_.record([&](VkCommandBuffer commands) {
         recordPass(commands, {.depth = &pass.depth}, pipeline, pushOf(w.view),
                    [&] { draw(commands, mesh, false); });

@@ -19,8 +19,8 @@ class PeerPasses {
   public:
     explicit PeerPasses(VulkanDevice& device) : device_(device) {}
 
-    // Depth alone; D32F.
-    PeerPass depth(const Workload& w);
+    // Depth alone; D32F. samples: 1 or 4.
+    PeerPass depth(const Workload& w, int samples);
     // Depth and radiance with all lights of the scene; RGBA in 32-bit floats, alpha the distance from the
     // eye. samples: 1, or 4, resolved to one.
     PeerPass shaded(const Workload& w, int samples);
