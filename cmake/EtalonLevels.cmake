@@ -28,6 +28,9 @@ set(etalon_flags_v3 -march=x86-64-v3)
 set(etalon_flags_v4 -march=x86-64-v4 -mprefer-vector-width=512)
 set(etalon_flags_neon "")
 
+# GNU's: CMake may have found LLVM's programs, whose options differ.
+find_program(ETALON_OBJCOPY NAMES ${CMAKE_LIBRARY_ARCHITECTURE}-objcopy objcopy REQUIRED)
+
 # etalon_knows_levels(TARGET): defines ETALON_HAS_<level> for the sources of a target that chooses between levels.
 function(etalon_knows_levels target)
   foreach(level ${ETALON_LEVELS})
@@ -48,8 +51,9 @@ function(etalon_leveled_sources library)
       $<$<CXX_COMPILER_ID:GNU>:-fno-gnu-unique>)
     set(merged ${CMAKE_CURRENT_BINARY_DIR}/${objects}${CMAKE_CXX_OUTPUT_EXTENSION})
     add_custom_command(OUTPUT ${merged}
-      COMMAND ${CMAKE_LINKER} -r --force-group-allocation -o ${merged} $<TARGET_OBJECTS:${objects}>
-      COMMAND ${CMAKE_OBJCOPY} --wildcard "--keep-global-symbol=_ZN6etalon*level_${level}*PassesEv" ${merged}
+      COMMAND ${CMAKE_CXX_COMPILER} -r -nostdlib -fuse-ld=bfd -Wl,--force-group-allocation -o ${merged}
+              $<TARGET_OBJECTS:${objects}>
+      COMMAND ${ETALON_OBJCOPY} --wildcard "--keep-global-symbol=_ZN6etalon*level_${level}*PassesEv" ${merged}
       DEPENDS $<TARGET_OBJECTS:${objects}>
       COMMENT "Linking level ${level} of ${library}"
       COMMAND_EXPAND_LISTS VERBATIM)

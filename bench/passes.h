@@ -1,0 +1,42 @@
+// The passes that are measured, through Etalon's own interface.
+#pragma once
+
+#include "bench/workloads.h"
+#include "lighting/render_view.h"
+
+namespace etalon::bench {
+
+// A workload with its vertices in world space, in the profile's vertex arithmetic.
+struct PlacedWorkload {
+    const Workload* workload = nullptr;
+    const Profile* profile = nullptr;
+    std::vector<PlacedMesh> placed;
+};
+
+// The profile's name is one of profileNames().
+PlacedWorkload place(const Workload& workload, const std::string& profile);
+
+// Vertices to clip space, visibility.
+VisibleScene drawDepth(const PlacedWorkload& work, int samples, const RasterOptions& options);
+
+// The same, then the beauty: Lambert and Blinn-Phong with all lights of the scene, background black.
+ShadedImages drawShaded(const PlacedWorkload& work, int samples, const RasterOptions& options);
+// The second half of it.
+ShadedImages shadeVisible(const PlacedWorkload& work, const VisibleScene& visible,
+                          const RasterOptions& options);
+
+// Radiance and distance around the point between the knot's arms, kCubeSize texels along a face.
+inline constexpr int kCubeSize = 512;
+CubeRenderRequest cubeRequest();
+CubeRender drawCube(const PlacedWorkload& work, const RasterOptions& options);
+
+// The blur that is measured: one channel of kBlurSize^2 random pixels.
+inline constexpr int kBlurSize = 1024, kBlurRadius = 10;
+inline constexpr double kBlurSigma = 5;
+Image<float> blurInput();
+
+// The lat-long image that becomes a cube map: three channels of random texels.
+inline constexpr int kLatLongWidth = 1024, kLatLongHeight = 512, kLatLongCubeSize = 256;
+Image<float> latLongInput();
+
+}  // namespace etalon::bench
