@@ -25,15 +25,15 @@ inline double depthLevels(DepthFormat format) {
 
 // The integers that are stored for depths z (any finite values; clamped to [0, 1] first).
 template <class S, int N>
-Lanes<int32_t, N> storedDepth(DepthFormat format, DepthRounding rounding, Lanes<S, N> z) {
+[[gnu::always_inline]] inline Lanes<int32_t, N> storedFloatDepth(Lanes<S, N> z) {
     z = RasterKernels<Lanes<S, N>>::clampOf(z, Lanes<S, N>(0.0), Lanes<S, N>(1.0));
-    if (format == DepthFormat::d32f) {
-        const Lanes<float, N> narrow = convertLanes<float>(z);
-        Lanes<int32_t, N> bits;
-        static_assert(sizeof(bits.v) == sizeof(narrow.v));
-        std::memcpy(&bits.v, &narrow.v, sizeof(bits.v));
-        return bits;
-    }
+    const Lanes<float, N> narrow = convertLanes<float>(z);
+    return Lanes<int32_t, N>(reinterpret_cast<typename Lanes<int32_t, N>::Vector>(narrow.v));
+}
+template <class S, int N>
+Lanes<int32_t, N> storedDepth(DepthFormat format, DepthRounding rounding, Lanes<S, N> z) {
+    if (format == DepthFormat::d32f) return storedFloatDepth(z);
+    z = RasterKernels<Lanes<S, N>>::clampOf(z, Lanes<S, N>(0.0), Lanes<S, N>(1.0));
     using Wide = Lanes<double, N>;
     const double levels = depthLevels(format);
     if (rounding == DepthRounding::driver) {

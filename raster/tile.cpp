@@ -19,7 +19,12 @@ constexpr int kGroupWidth = std::min(kGroup, kBlockSize);
 
 using GroupInt = Lanes<int32_t, kGroup>;
 using GroupMask = Mask<int32_t, kGroup>;
-using GroupDouble = Lanes<double, kGroup>;
+// The group in registers of double.
+constexpr int kPart = std::min(kGroup, kNativeLanes<double>);
+constexpr int kParts = kGroup / kPart;
+static_assert(kParts <= 2);
+using PartDouble = Lanes<double, kPart>;
+using GroupDouble = std::array<PartDouble, kParts>;
 using Rectangle = TileGrid::Rectangle;
 
 GroupInt splat(int32_t value) { return GroupInt(GroupInt::Vector{} + value); }
@@ -28,6 +33,22 @@ GroupInt laneX() {
 }
 GroupInt laneY() {
     return GroupInt::generate([](int i) { return i / kBlockSize; });
+}
+// f(i) for lane i.
+template <class F>
+GroupDouble generateDoubles(F f) {
+    GroupDouble doubles;
+    for (int part = 0; part < kParts; part++)
+        doubles[static_cast<size_t>(part)] = PartDouble::generate([&](int i) { return f(part * kPart + i); });
+    return doubles;
+}
+// Each lane rounded once to Real.
+template <class Real>
+[[gnu::always_inline]] inline Lanes<Real, kGroup> groupOf(const GroupDouble& a) {
+    if constexpr (kParts == 1)
+        return convertLanes<Real>(a[0]);
+    else
+        return joinLanes(convertLanes<Real>(a[0]), convertLanes<Real>(a[1]));
 }
 
 // Edges whose values fit 32 bits everywhere in the blocks that the triangle touches: those of triangles of at
@@ -121,12 +142,11 @@ struct PieceDepth {
           bias(piece.bias),
           hasBias(piece.bias != 0) {}
 
-    // The stored depths for the edge values e (rules 5 to 7).
-    GroupInt at(const vec3& e, const RenderTargetFormat& format) const {
+    // The depths for the edge values e (rules 5 and 7).
+    [[gnu::always_inline]] Row at(const vec3& e) const {
         Kernels kernels;
-        Row depth = kernels.interpolateDepth(e, reciprocalArea, z, lowest, highest);
-        if (hasBias) depth = depth + bias;
-        return storedDepth(format.depth, format.depthRounding, depth);
+        const Row depth = kernels.interpolateDepth(e, reciprocalArea, z, lowest, highest);
+        return hasBias ? depth + bias : depth;
     }
 
     vec3 z;
@@ -150,22 +170,26 @@ class TileRasterizerOfLevel final : public TileRasterizer {
                  std::span<const uint32_t> triangles);
     template <class Real>
     void drawPiece(const Piece& piece);
-    template <class Real>
-    void drawSmallBlock(const Piece& piece, const PieceDepth<Real>& depth, int blockX, int blockY,
-                        int sample);
-    template <class Real>
-    void drawLargeBlock(const Piece& piece, const PieceDepth<Real>& depth, int blockX, int blockY,
-                        int sample);
+    template <class Real, bool kPlain>
+    void drawSmallPiece(const Piece& piece);
+    template <class Real, bool kPlain>
+    void drawLargePiece(const Piece& piece);
     template <class Real>
     void drawGroup(std::span<const Piece> pieces);
     GroupMask winding(std::span<const Piece> pieces, int64_t x_subpx, int64_t y_subpx,
                       std::span<int> firstCovering) const;
     template <class Visit>
+    void forEachBlock(const Piece& piece, Visit visit) const;
+    template <class Visit>
     void forEachGroup(const Piece& piece, int blockX, int blockY, int sample, Visit visit) const;
     GroupMask insideRectangle(const Group& group) const;
-    template <class Real>
+    template <class Real, bool kPlain>
     void test(const Piece& piece, const PieceDepth<Real>& depth, const typename PieceDepth<Real>::vec3& e,
               const Group& group, GroupMask covered);
+    bool isPlain(const DrawState& state) const {
+        return state.depthCompare == Compare::less && state.depthWrite && !state.stencil.enabled &&
+               format_.depth == DepthFormat::d32f;
+    }
     GroupMask testStencil(const Piece& piece, const Group& group, GroupMask covered, GroupMask depthPassed);
 
     std::array<int64_t, 2> samplePosition(int x, int y, int sample) const {
@@ -305,115 +329,121 @@ void TileRasterizerOfLevel::drawAll(const RenderTarget& target, std::span<const 
 template <class Real>
 void TileRasterizerOfLevel::drawPiece(const Piece& piece) {
     if (piece.x0 > piece.x1 || piece.y0 > piece.y1) return;
-    const PieceDepth<Real> depth(piece);
-    const int x0 = piece.x0 & -kBlockSize, y0 = piece.y0 & -kBlockSize;
-    for (int y = y0; y <= piece.y1; y += kBlockSize)
-        for (int x = x0; x <= piece.x1; x += kBlockSize)
-            for (int s = 0; s < format_.samples; s++) {
-                if (piece.isSmall)
-                    drawSmallBlock(piece, depth, x, y, s);
-                else
-                    drawLargeBlock(piece, depth, x, y, s);
-            }
+    const bool plain = isPlain(*piece.state);
+    if (piece.isSmall)
+        plain ? drawSmallPiece<Real, true>(piece) : drawSmallPiece<Real, false>(piece);
+    else
+        plain ? drawLargePiece<Real, true>(piece) : drawLargePiece<Real, false>(piece);
 }
 
-// Calls visit(group, x, y) for the groups of a block that hold pixels of the piece's box; (x, y) is the
-// group's place in the block.
+// Calls visit(blockX, blockY, sample) for each block and sample plane that the piece's box touches.
 template <class Visit>
-void TileRasterizerOfLevel::forEachGroup(const Piece& piece, int blockX, int blockY, int sample,
-                                         Visit visit) const {
+void TileRasterizerOfLevel::forEachBlock(const Piece& piece, Visit visit) const {
+    for (int y = piece.y0 & -kBlockSize; y <= piece.y1; y += kBlockSize)
+        for (int x = piece.x0 & -kBlockSize; x <= piece.x1; x += kBlockSize)
+            for (int s = 0; s < format_.samples; s++) visit(x, y, s);
+}
+
+// Calls visit(group, x, y) for the groups of a block that hold pixels of the piece's box; (x, y) is the group's place
+// in the block.
+template <class Visit>
+[[gnu::always_inline]] inline void TileRasterizerOfLevel::forEachGroup(const Piece& piece, int blockX, int blockY,
+                                                                       int sample, Visit visit) const {
     const size_t offset = blockOffset(blockX, blockY, sample);
-    const int firstRow = std::max(piece.y0 - blockY, 0),
-              lastRow = std::min(piece.y1 - blockY, kBlockSize - 1);
+    const int firstRow = std::max(piece.y0 - blockY, 0), lastRow = std::min(piece.y1 - blockY, kBlockSize - 1);
     const int last = lastRow * kBlockSize + kBlockSize - 1;
     for (int p = firstRow * kBlockSize / kGroup * kGroup; p <= last; p += kGroup) {
         const int x = p % kBlockSize, y = p / kBlockSize;
-        if (kGroupWidth < kBlockSize && (blockX + x > piece.x1 || blockX + x + kGroupWidth <= piece.x0))
-            continue;
+        if (kGroupWidth < kBlockSize && (blockX + x > piece.x1 || blockX + x + kGroupWidth <= piece.x0)) continue;
         visit(Group{blockX + x, blockY + y, offset + static_cast<size_t>(p)}, x, y);
     }
 }
 
 // 32-bit edge values.
-template <class Real>
-void TileRasterizerOfLevel::drawSmallBlock(const Piece& piece, const PieceDepth<Real>& depth, int blockX,
-                                           int blockY, int sample) {
+template <class Real, bool kPlain>
+void TileRasterizerOfLevel::drawSmallPiece(const Piece& piece) {
+    const PieceDepth<Real> depth(piece);
     const int n = format_.subpixelBits;
-    const auto [x_subpx, y_subpx] = samplePosition(blockX, blockY, sample);
-    int32_t first[3], stepX[3], stepY[3];
-    GroupInt lanes[3];
+    int32_t stepX[3], stepY[3];
+    GroupInt lanes[3], excluded[3];
     for (size_t i = 0; i < 3; i++) {
-        first[i] = static_cast<int32_t>(piece.edges[i].at(x_subpx, y_subpx));
         stepX[i] = piece.edges[i].stepX * (1 << n);
         stepY[i] = piece.edges[i].stepY * (1 << n);
         lanes[i] = splat(stepX[i]) * laneX() + splat(stepY[i]) * laneY();
+        excluded[i] = splat(piece.edges[i].excluded);
     }
-    const bool whole = holdsBlock(blockX, blockY);
-    forEachGroup(piece, blockX, blockY, sample, [&](const Group& group, int x, int y) {
-        GroupInt e[3];
-        for (int i = 0; i < 3; i++) e[i] = lanes[i] + splat(first[i] + stepX[i] * x + stepY[i] * y);
-        const GroupInt outside = (e[0] - splat(piece.edges[0].excluded)) |
-                                 (e[1] - splat(piece.edges[1].excluded)) |
-                                 (e[2] - splat(piece.edges[2].excluded));
-        GroupMask covered = outside >= splat(0);
-        if (!whole) covered = covered && insideRectangle(group);
-        if (anyOf(covered))
-            test<Real>(piece, depth,
-                       {convertLanes<Real>(e[0]), convertLanes<Real>(e[1]), convertLanes<Real>(e[2])}, group,
-                       covered);
+    forEachBlock(piece, [&](int blockX, int blockY, int sample) {
+        const auto [x_subpx, y_subpx] = samplePosition(blockX, blockY, sample);
+        int32_t first[3];
+        for (size_t i = 0; i < 3; i++) first[i] = static_cast<int32_t>(piece.edges[i].at(x_subpx, y_subpx));
+        const bool whole = holdsBlock(blockX, blockY);
+        forEachGroup(piece, blockX, blockY, sample, [&](const Group& group, int x, int y) {
+            GroupInt e[3];
+            for (int i = 0; i < 3; i++) e[i] = lanes[i] + splat(first[i] + stepX[i] * x + stepY[i] * y);
+            const GroupInt outside = (e[0] - excluded[0]) | (e[1] - excluded[1]) | (e[2] - excluded[2]);
+            GroupMask covered = outside >= splat(0);
+            if (!whole) covered = covered && insideRectangle(group);
+            if (!anyOf(covered)) return;
+            test<Real, kPlain>(piece, depth,
+                               {convertLanes<Real>(e[0]), convertLanes<Real>(e[1]), convertLanes<Real>(e[2])}, group,
+                               covered);
+        });
     });
 }
 
-// Decides each edge for the whole block first; groups then look at the undecided edges only. There edge
-// values are floored to whole pixels' steps, E >> n, which keeps the sign and fits 32 bits near an undecided
-// edge: |step| <= 2^25, so |E >> n| < 7 * 2 * 2^25 < 2^29 in the block. Depth takes E itself, below 2^53,
-// from doubles.
-template <class Real>
-void TileRasterizerOfLevel::drawLargeBlock(const Piece& piece, const PieceDepth<Real>& depth, int blockX,
-                                           int blockY, int sample) {
+// Decides each edge for the whole block first; groups then look at the undecided edges only. There edge values are
+// floored to whole pixels' steps, E >> n, which keeps the sign and fits 32 bits near an undecided edge:
+// |step| <= 2^25, so |E >> n| < 7 * 2 * 2^25 < 2^29 in the block. Depth takes E itself, below 2^53, from doubles.
+template <class Real, bool kPlain>
+void TileRasterizerOfLevel::drawLargePiece(const Piece& piece) {
+    const PieceDepth<Real> depth(piece);
     const int n = format_.subpixelBits;
-    const auto [x_subpx, y_subpx] = samplePosition(blockX, blockY, sample);
-    struct {
-        int32_t first, stepX, stepY;
-        GroupInt lanes;
-    } undecided[3];
-    int undecidedCount = 0;
-    int64_t first[3];
-    for (size_t i = 0; i < 3; i++) {
-        const Piece::Edge& edge = piece.edges[i];
-        first[i] = edge.at(x_subpx, y_subpx);
-        const int64_t value = (first[i] - edge.excluded) >> n;
-        const int64_t acrossX = int64_t{edge.stepX} * (kBlockSize - 1),
-                      acrossY = int64_t{edge.stepY} * (kBlockSize - 1);
-        const int64_t highest = value + std::max<int64_t>(acrossX, 0) + std::max<int64_t>(acrossY, 0);
-        const int64_t lowest = value + std::min<int64_t>(acrossX, 0) + std::min<int64_t>(acrossY, 0);
-        if (highest < 0) return;
-        if (lowest >= 0) continue;
-        undecided[undecidedCount++] = {static_cast<int32_t>(value), edge.stepX, edge.stepY,
-                                       splat(edge.stepX) * laneX() + splat(edge.stepY) * laneY()};
-    }
-    GroupDouble lanes[3];
+    GroupInt lanes[3];
+    GroupDouble laneValues[3];
     double stepX[3], stepY[3];
     for (size_t i = 0; i < 3; i++) {
-        stepX[i] = static_cast<double>(int64_t{piece.edges[i].stepX} << n);
-        stepY[i] = static_cast<double>(int64_t{piece.edges[i].stepY} << n);
-        lanes[i] = GroupDouble(stepX[i]) * convertLanes<double>(laneX()) +
-                   GroupDouble(stepY[i]) * convertLanes<double>(laneY());
+        const Piece::Edge& edge = piece.edges[i];
+        lanes[i] = splat(edge.stepX) * laneX() + splat(edge.stepY) * laneY();
+        stepX[i] = static_cast<double>(int64_t{edge.stepX} * (1 << n));
+        stepY[i] = static_cast<double>(int64_t{edge.stepY} * (1 << n));
+        laneValues[i] = generateDoubles(
+            [&](int lane) { return stepX[i] * (lane % kBlockSize) + stepY[i] * (lane / kBlockSize); });
     }
-    const bool whole = holdsBlock(blockX, blockY);
-    forEachGroup(piece, blockX, blockY, sample, [&](const Group& group, int x, int y) {
-        GroupInt outside = splat(0);
-        for (int k = 0; k < undecidedCount; k++)
-            outside = outside | (undecided[k].lanes +
-                                 splat(undecided[k].first + undecided[k].stepX * x + undecided[k].stepY * y));
-        GroupMask covered = outside >= splat(0);
-        if (!whole) covered = covered && insideRectangle(group);
-        if (!anyOf(covered)) return;
-        const auto edgeValue = [&](size_t i) {
-            const double atGroup = static_cast<double>(first[i]) + (stepX[i] * x + stepY[i] * y);
-            return convertLanes<Real>(lanes[i] + GroupDouble(atGroup));
-        };
-        test<Real>(piece, depth, {edgeValue(0), edgeValue(1), edgeValue(2)}, group, covered);
+    forEachBlock(piece, [&](int blockX, int blockY, int sample) {
+        const auto [x_subpx, y_subpx] = samplePosition(blockX, blockY, sample);
+        int undecided[3], undecidedCount = 0;
+        int32_t floored[3];
+        double first[3];
+        for (size_t i = 0; i < 3; i++) {
+            const Piece::Edge& edge = piece.edges[i];
+            const int64_t exact = edge.at(x_subpx, y_subpx), value = (exact - edge.excluded) >> n;
+            const int64_t acrossX = int64_t{edge.stepX} * (kBlockSize - 1),
+                          acrossY = int64_t{edge.stepY} * (kBlockSize - 1);
+            if (value + std::max<int64_t>(acrossX, 0) + std::max<int64_t>(acrossY, 0) < 0) return;
+            first[i] = static_cast<double>(exact);
+            if (value + std::min<int64_t>(acrossX, 0) + std::min<int64_t>(acrossY, 0) >= 0) continue;
+            floored[i] = static_cast<int32_t>(value);
+            undecided[undecidedCount++] = static_cast<int>(i);
+        }
+        const bool whole = holdsBlock(blockX, blockY);
+        forEachGroup(piece, blockX, blockY, sample, [&](const Group& group, int x, int y) {
+            GroupInt outside = splat(0);
+            for (int k = 0; k < undecidedCount; k++) {
+                const int i = undecided[k];
+                const Piece::Edge& edge = piece.edges[static_cast<size_t>(i)];
+                outside = outside | (lanes[i] + splat(floored[i] + edge.stepX * x + edge.stepY * y));
+            }
+            GroupMask covered = outside >= splat(0);
+            if (!whole) covered = covered && insideRectangle(group);
+            if (!anyOf(covered)) return;
+            const auto edgeValue = [&](int i) {
+                const PartDouble atGroup(first[i] + (stepX[i] * x + stepY[i] * y));
+                GroupDouble e;
+                for (size_t part = 0; part < kParts; part++) e[part] = laneValues[i][part] + atGroup;
+                return groupOf<Real>(e);
+            };
+            test<Real, kPlain>(piece, depth, {edgeValue(0), edgeValue(1), edgeValue(2)}, group, covered);
+        });
     });
 }
 
@@ -448,20 +478,19 @@ void TileRasterizerOfLevel::drawGroup(std::span<const Piece> pieces) {
             if (!anyOf(mine)) continue;
             const auto edgeValue = [&](const Piece::Edge& edge) {
                 const int n = format_.subpixelBits;
-                return convertLanes<Real>(GroupDouble::generate([&](int i) {
+                return groupOf<Real>(generateDoubles([&](int i) {
                     return edge.at(x_subpx + (int64_t{i % kBlockSize} << n),
                                    y_subpx + (int64_t{i / kBlockSize} << n));
                 }));
             };
             const auto& edges = pieces[k].edges;
-            test<Real>(pieces[k], PieceDepth<Real>(pieces[k]),
+            test<Real, false>(pieces[k], PieceDepth<Real>(pieces[k]),
                        {edgeValue(edges[0]), edgeValue(edges[1]), edgeValue(edges[2])}, group, mine);
         }
     };
-    for (int y = box.y0 & -kBlockSize; y <= box.y1; y += kBlockSize)
-        for (int x = box.x0 & -kBlockSize; x <= box.x1; x += kBlockSize)
-            for (int s = 0; s < format_.samples; s++)
-                forEachGroup(box, x, y, s, [&](const Group& group, int, int) { visit(group, s); });
+    forEachBlock(box, [&](int x, int y, int sample) {
+        forEachGroup(box, x, y, sample, [&](const Group& group, int, int) { visit(group, sample); });
+    });
 }
 
 // Which of the group's samples more pieces of the polygon's sign cover than reversed ones, and the first
@@ -486,16 +515,24 @@ GroupMask TileRasterizerOfLevel::winding(std::span<const Piece> pieces, int64_t 
     return covered;
 }
 
-template <class Real>
-void TileRasterizerOfLevel::test(const Piece& piece, const PieceDepth<Real>& pieceDepth,
-                                 const typename PieceDepth<Real>::vec3& e, const Group& group,
-                                 GroupMask covered) {
+// Depth and stencil test and the writes. kPlain: the draw's state isPlain.
+template <class Real, bool kPlain>
+[[gnu::always_inline]] inline void TileRasterizerOfLevel::test(const Piece& piece, const PieceDepth<Real>& pieceDepth,
+                                                               const typename PieceDepth<Real>::vec3& e,
+                                                               const Group& group, GroupMask covered) {
     const DrawState& state = *piece.state;
     const GroupInt stored = GroupInt::load(&depth_[group.offset]);
-    const GroupInt depth = pieceDepth.at(e, format_);
-    GroupMask passed = covered && compareValues<GroupMask>(state.depthCompare, depth, stored);
-    if (state.stencil.enabled) passed = testStencil(piece, group, covered, passed);
-    if (state.depthWrite) select(passed, depth, stored).store(&depth_[group.offset]);
+    GroupInt depth;
+    GroupMask passed;
+    if constexpr (kPlain) {
+        depth = storedFloatDepth(pieceDepth.at(e));
+        passed = covered && depth < stored;
+    } else {
+        depth = storedDepth(format_.depth, format_.depthRounding, pieceDepth.at(e));
+        passed = covered && compareValues<GroupMask>(state.depthCompare, depth, stored);
+        if (state.stencil.enabled) passed = testStencil(piece, group, covered, passed);
+    }
+    if (kPlain || state.depthWrite) select(passed, depth, stored).store(&depth_[group.offset]);
     if (state.idWrite)
         select(passed, splat(static_cast<int32_t>(piece.id)), GroupInt::load(&id_[group.offset]))
             .store(&id_[group.offset]);
