@@ -68,7 +68,11 @@ void addDepth(const std::string& name, const Way& way, int samples = 1) {
         const Amount amount{
             .triangles = static_cast<double>(w.triangles()),
             .bytes_touched = meshBytes(w) + pixelsOf(w.view) * static_cast<size_t>(samples) * kSample_bytes};
-        measure(state, amount, [&] { return drawDepth(work, samples, {.threads = way.threads}); });
+        VisibleScene visible = drawDepth(work, samples, {.threads = way.threads});
+        measure(state, amount, [&] {
+            drawDepth(visible, work, samples, {.threads = way.threads});
+            return visible.target.depth.values().data();
+        });
     });
 }
 
@@ -84,7 +88,12 @@ void addShaded(const std::string& name, int lights, const Way& way, int samples 
             .bytes_touched =
                 meshBytes(w) + normalBytes(w) +
                 pixelsOf(w.view) * (static_cast<size_t>(samples) * kSample_bytes + kRadiance_bytes)};
-        measure(state, amount, [&] { return drawShaded(work, samples, {.threads = way.threads}); });
+        const RasterOptions options{.threads = way.threads};
+        VisibleScene visible = drawDepth(work, samples, options);
+        measure(state, amount, [&] {
+            drawDepth(visible, work, samples, options);
+            return shadeVisible(work, visible, options);
+        });
     });
 }
 
@@ -95,7 +104,11 @@ void addFill(const Way& way) {
         const PlacedWorkload work = place(w, way.profile);
         const Amount amount{.pixels = static_cast<double>(kLayers) * static_cast<double>(pixelsOf(w.view)),
                             .bytes_touched = pixelsOf(w.view) * kSample_bytes};
-        measure(state, amount, [&] { return drawDepth(work, 1, {.threads = way.threads}); });
+        VisibleScene visible = drawDepth(work, 1, {.threads = way.threads});
+        measure(state, amount, [&] {
+            drawDepth(visible, work, 1, {.threads = way.threads});
+            return visible.target.depth.values().data();
+        });
     });
 }
 

@@ -27,6 +27,10 @@ VisibleScene drawDepth(const PlacedWorkload& work, int samples, const RasterOpti
                        options);
 }
 
+void drawDepth(VisibleScene& visible, const PlacedWorkload& work, int samples, const RasterOptions& options) {
+    findVisible(visible, work.workload->scene, work.placed, work.workload->view, *work.profile, samples, options);
+}
+
 ShadedImages shadeVisible(const PlacedWorkload& work, const VisibleScene& visible,
                           const RasterOptions& options) {
     ShadeJob job;
@@ -41,10 +45,6 @@ ShadedImages shadeVisible(const PlacedWorkload& work, const VisibleScene& visibl
     job.threads = options.threads;
     job.tileSize = options.tileSize;
     return shade(job);
-}
-
-ShadedImages drawShaded(const PlacedWorkload& work, int samples, const RasterOptions& options) {
-    return shadeVisible(work, drawDepth(work, samples, options), options);
 }
 
 CubeRenderRequest cubeRequest() {

@@ -16,12 +16,11 @@ struct PlacedWorkload {
 // The profile's name is one of profileNames().
 PlacedWorkload place(const Workload& workload, const std::string& profile);
 
-// Vertices to clip space, visibility.
+// Vertices to clip space, visibility; the second one draws over an earlier frame, whose memory it uses.
 VisibleScene drawDepth(const PlacedWorkload& work, int samples, const RasterOptions& options);
+void drawDepth(VisibleScene& visible, const PlacedWorkload& work, int samples, const RasterOptions& options);
 
-// The same, then the beauty: Lambert and Blinn-Phong with all lights of the scene, background black.
-ShadedImages drawShaded(const PlacedWorkload& work, int samples, const RasterOptions& options);
-// The second half of it.
+// The beauty of what is visible: Lambert and Blinn-Phong with all lights of the scene, background black.
 ShadedImages shadeVisible(const PlacedWorkload& work, const VisibleScene& visible,
                           const RasterOptions& options);
 

@@ -65,15 +65,14 @@ std::vector<PlacedMesh> placeMeshes(const SurfaceScene& scene, RasterReal vertex
     return placed;
 }
 
-std::vector<ClipVertex> toClipSpace(const PlacedMesh& placed, const View& view, RasterReal vertexReal,
-                                    int threads) {
-    std::vector<ClipVertex> vertices(placed.positions.size());
+void toClipSpace(const PlacedMesh& placed, const View& view, RasterReal vertexReal, int threads,
+                 UninitializedVector<ClipVertex>& vertices) {
+    vertices.resize(placed.positions.size());
     const auto project = lightingPasses().projectPoints;
     inTasks(vertices.size(), threads, [&](size_t begin, size_t count) {
         project(vertexReal, view.worldToClip, std::span(placed.positions).subspan(begin, count),
                 std::span(vertices).subspan(begin, count));
     });
-    return vertices;
 }
 
 }  // namespace etalon

@@ -8,6 +8,7 @@
 #include "lighting/view.h"
 #include "raster/draw.h"
 #include "raster/render_target.h"
+#include "raster/uninitialized_vector.h"
 
 namespace etalon {
 
@@ -22,8 +23,8 @@ struct PlacedMesh {
 // Places every instance of the scene. Throws PreconditionError for an index of a mesh or vertex out of range.
 std::vector<PlacedMesh> placeMeshes(const SurfaceScene& scene, RasterReal vertexReal, int threads);
 
-// The vertices in clip space of a view.
-std::vector<ClipVertex> toClipSpace(const PlacedMesh& placed, const View& view, RasterReal vertexReal,
-                                    int threads);
+// The vertices in clip space of a view; `vertices` is replaced.
+void toClipSpace(const PlacedMesh& placed, const View& view, RasterReal vertexReal, int threads,
+                 UninitializedVector<ClipVertex>& vertices);
 
 }  // namespace etalon

@@ -2,48 +2,73 @@
 
 namespace etalon {
 
-VisibleScene findVisible(const SurfaceScene& scene, const std::vector<PlacedMesh>& placed, const View& view,
-                         const Profile& profile, int samples, const RasterOptions& options,
-                         uint32_t excluded) {
+namespace {
+
+RenderTargetFormat formatOf(const Profile& profile, int samples) {
     RenderTargetFormat format;
     format.samples = samples;
     format.subpixelBits = profile.subpixelBits;
     format.depth = profile.depth;
     format.depthRounding = profile.depthRounding;
     format.real = profile.vertex;
-    VisibleScene visible{RenderTarget(view.width, view.height, format), {}, {}};
+    return format;
+}
 
-    std::vector<std::vector<ClipVertex>> vertices;
+}  // namespace
+
+VisibleScene findVisible(const SurfaceScene& scene, const std::vector<PlacedMesh>& placed, const View& view,
+                         const Profile& profile, int samples, const RasterOptions& options,
+                         uint32_t excluded) {
+    VisibleScene visible{RenderTarget(view.width, view.height, formatOf(profile, samples)), {}, {}, {}};
+    findVisible(visible, scene, placed, view, profile, samples, options, excluded);
+    return visible;
+}
+
+void findVisible(VisibleScene& visible, const SurfaceScene& scene, const std::vector<PlacedMesh>& placed,
+                 const View& view, const Profile& profile, int samples, const RasterOptions& options,
+                 uint32_t excluded) {
+    const RenderTargetFormat format = formatOf(profile, samples);
+    RenderTarget& target = visible.target;
+    if (target.width() != view.width || target.height() != view.height || target.format != format)
+        target = RenderTarget(view.width, view.height, format);
+    else if (target.drawCount > 0)
+        target.clear();
+    visible.instanceOfDraw.clear();
+    visible.vertices.resize(scene.instances.size());
+
     std::vector<Draw> draws;
     for (uint32_t i = 0; i < scene.instances.size(); i++) {
         if (i == excluded) continue;
-        vertices.push_back(toClipSpace(placed[i], view, profile.vertex, options.threads));
+        toClipSpace(placed[i], view, profile.vertex, options.threads, visible.vertices[i]);
         Draw draw;
-        draw.vertices = vertices.back();
+        draw.vertices = visible.vertices[i];
         draw.indices = placed[i].mesh->indices;
         draw.state.cull = scene.instances[i].twoSided ? CullMode::none : CullMode::back;
         draw.state.frontIsClockwise = view.mirrored != placed[i].mirrored;
         draws.push_back(draw);
         visible.instanceOfDraw.push_back(i);
     }
-    visible.statistics = rasterize(visible.target, {0, 0, view.width, view.height}, draws, options);
-    return visible;
+    visible.statistics = rasterize(target, {0, 0, view.width, view.height}, draws, options);
 }
 
 CubeRender renderCubeMap(const SurfaceScene& scene, const std::vector<PlacedMesh>& placed,
                          const CubeRenderRequest& request, const CubeMap<float>* environmentCube,
                          const Profile& profile, const RasterOptions& options) {
     CubeRender cube;
+    std::optional<VisibleScene> visible;
     for (int face = 0; face < kCubeFaces; face++) {
         const View view = cubeFaceView(static_cast<CubeFace>(face), request.size, request.centre,
                                        request.near_m, request.far_m);
-        const VisibleScene visible = findVisible(scene, placed, view, profile, 1, options, request.excluded);
+        if (visible)
+            findVisible(*visible, scene, placed, view, profile, 1, options, request.excluded);
+        else
+            visible.emplace(findVisible(scene, placed, view, profile, 1, options, request.excluded));
         ShadeJob job;
         job.scene = &scene;
         job.view = &view;
-        job.target = &visible.target;
+        job.target = &visible->target;
         job.placed = &placed;
-        job.instanceOfDraw = visible.instanceOfDraw;
+        job.instanceOfDraw = visible->instanceOfDraw;
         job.environmentCube = environmentCube;
         job.sceneCubes.assign(scene.instances.size(), nullptr);
         job.request[ShadeOutput::beauty] = true;

@@ -15,6 +15,7 @@ struct VisibleScene {
     RenderTarget target;
     std::vector<uint32_t> instanceOfDraw;
     RasterStatistics statistics;
+    std::vector<UninitializedVector<ClipVertex>> vertices;  // of each draw: kept for the next frame's
 };
 
 inline constexpr uint32_t kNoInstance = std::numeric_limits<uint32_t>::max();
@@ -23,6 +24,10 @@ inline constexpr uint32_t kNoInstance = std::numeric_limits<uint32_t>::max();
 VisibleScene findVisible(const SurfaceScene& scene, const std::vector<PlacedMesh>& placed, const View& view,
                          const Profile& profile, int samples, const RasterOptions& options,
                          uint32_t excluded = kNoInstance);
+// The same into what an earlier frame left: its memory serves again where the size and the format are the same.
+void findVisible(VisibleScene& visible, const SurfaceScene& scene, const std::vector<PlacedMesh>& placed,
+                 const View& view, const Profile& profile, int samples, const RasterOptions& options,
+                 uint32_t excluded = kNoInstance);
 
 // Six faces with what is seen from a point: radiance (three channels) and the distance along the ray in
 // metres (infinity where nothing is).

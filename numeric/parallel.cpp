@@ -9,6 +9,7 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <optional>
 #include <thread>
 #include <vector>
 
@@ -50,9 +51,17 @@ void runItems(size_t count, int threads, const std::function<void(size_t)>& body
 }
 #else
 void runItems(size_t count, int threads, const std::function<void(size_t)>& body) {
-    // More threads than the hardware has must be allowed explicitly.
-    const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism,
-                                      static_cast<size_t>(std::max(threads, hardwareThreads())));
+    // More threads than the hardware has must be allowed explicitly. Never taken back: workers are slow to come again.
+    static std::mutex mutex;
+    static std::optional<tbb::global_control> allowed;
+    static int allowedThreads = hardwareThreads();
+    {
+        const std::lock_guard lock(mutex);
+        if (threads > allowedThreads) {
+            allowedThreads = threads;
+            allowed.emplace(tbb::global_control::max_allowed_parallelism, static_cast<size_t>(threads));
+        }
+    }
     tbb::task_arena arena(threads);
     arena.execute([&] {
         tbb::parallel_for(tbb::blocked_range<size_t>(0, count, 1),

@@ -8,7 +8,7 @@ namespace etalon {
 
 // A vertex position in clip space: inside the volume when 0 < w and 0 <= z <= w; x right, y up.
 struct ClipVertex {
-    double x = 0, y = 0, z = 0, w = 1;
+    double x, y, z, w;
 };
 
 enum class Compare : uint8_t { never, less, equal, lessEqual, greater, notEqual, greaterEqual, always };

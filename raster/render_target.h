@@ -60,6 +60,8 @@ struct RenderTargetFormat {
     DepthFormat depth = DepthFormat::d32f;
     DepthRounding depthRounding = DepthRounding::exact;
     RasterReal real = RasterReal::fp32;
+
+    friend bool operator==(const RenderTargetFormat&, const RenderTargetFormat&) = default;
 };
 
 // Memory that rasterize keeps from call to call; a copied target starts with none.

@@ -19,6 +19,13 @@ ProjectedVertex project(const ClipVertex& v, const ViewportTransform& transform)
             static_cast<int32_t>(Kernel::snapY(p, transform)), Kernel::depth(p, transform), 1.0 / v.w};
 }
 
+// Rule 4 for the edge from a to b.
+bool isInside(const ProjectedVertex& a, const ProjectedVertex& b, int64_t x_subpx, int64_t y_subpx) {
+    const int64_t dx = int64_t{b.x_subpx} - a.x_subpx, dy = int64_t{b.y_subpx} - a.y_subpx;
+    const bool ownsZero = dy < 0 || (dy == 0 && dx > 0);
+    return dx * (y_subpx - a.y_subpx) - dy * (x_subpx - a.x_subpx) >= (ownsZero ? 0 : 1);
+}
+
 // Orientation made positive.
 StoredTriangle storedTriangle(std::array<uint32_t, 3> vertex, int64_t area, bool front) {
     StoredTriangle t{};
@@ -96,10 +103,10 @@ void TriangleSetup::addTriangle(const DrawInput& input, uint32_t index,
                           &c = input.projected[corners[2]];
     const int64_t area = signedArea(a, b, c);
     if (isCulled(area, input.draw->state)) return;
-    const TileBox box = grid_->tilesOf(
+    const TileGrid::PixelBox box = grid_->pixelsOf(
         std::min({a.x_subpx, b.x_subpx, c.x_subpx}), std::min({a.y_subpx, b.y_subpx, c.y_subpx}),
         std::max({a.x_subpx, b.x_subpx, c.x_subpx}), std::max({a.y_subpx, b.y_subpx, c.y_subpx}));
-    if (box.x0 > box.x1) {
+    if (box.empty() || (area > 0 ? missesAll(box, a, b, c) : missesAll(box, a, c, b))) {
         statistics.missed++;
         return;
     }
@@ -109,8 +116,21 @@ void TriangleSetup::addTriangle(const DrawInput& input, uint32_t index,
     t.draw = input.number;
     t.triangle = index;
     triangles.push_back(t);
-    addBox(box);
+    addBox(grid_->tilesOf(box));
     statistics.records++;
+}
+
+// True if the triangle is small and covers none of the samples in its box. Positive orientation.
+bool TriangleSetup::missesAll(const TileGrid::PixelBox& box, const ProjectedVertex& a, const ProjectedVertex& b,
+                              const ProjectedVertex& c) const {
+    constexpr int kFewPixels = 4;
+    if (!grid_->hasOneSample() || (box.x1 - box.x0 + 1) * (box.y1 - box.y0 + 1) > kFewPixels) return false;
+    for (int y = box.y0; y <= box.y1; y++)
+        for (int x = box.x0; x <= box.x1; x++) {
+            const int64_t px = grid_->sampleX_subpx(x), py = grid_->sampleY_subpx(y);
+            if (isInside(b, c, px, py) && isInside(c, a, px, py) && isInside(a, b, px, py)) return false;
+        }
+    return true;
 }
 
 void TriangleSetup::addBox(const TileBox& box) {
@@ -171,12 +191,12 @@ void TriangleSetup::addClipped(const DrawInput& input, uint32_t index, const std
             xMin = std::min(xMin, v[k].x_subpx), xMax = std::max(xMax, v[k].x_subpx);
             yMin = std::min(yMin, v[k].y_subpx), yMax = std::max(yMax, v[k].y_subpx);
         }
-        addBox(isGroup ? kNoTiles : grid_->tilesOf(xMin, yMin, xMax, yMax));
+        addBox(isGroup ? kNoTiles : grid_->tilesOf(grid_->pixelsOf(xMin, yMin, xMax, yMax)));
     }
     if (!isGroup) return;
     triangles[firstPiece].groupSize = static_cast<uint8_t>(triangles.size() - firstPiece);
     boxes.resize(firstPiece);
-    addBox(grid_->tilesOf(xMin, yMin, xMax, yMax));
+    addBox(grid_->tilesOf(grid_->pixelsOf(xMin, yMin, xMax, yMax)));
     boxes.resize(triangles.size(), kNoTiles);
 }
 

@@ -53,6 +53,8 @@ class TriangleSetup {
   private:
     bool isCulled(int64_t area, const DrawState& state);
     void addTriangle(const DrawInput& input, uint32_t index, const std::array<uint32_t, 3>& corners);
+    bool missesAll(const TileGrid::PixelBox& box, const ProjectedVertex& a, const ProjectedVertex& b,
+                   const ProjectedVertex& c) const;
     void addClipped(const DrawInput& input, uint32_t index, const std::array<uint32_t, 3>& corners,
                     int planes);
     void addBox(const TileBox& box);

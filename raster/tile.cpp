@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <vector>
 
 #include "raster/depth.h"
@@ -12,7 +13,8 @@ namespace {
 
 // Coverage is decided in blocks of 8 x 8 pixels; a tile's planes are stored block by block, so that a group
 // of lanes is contiguous: one pixel, half a row, a row or two rows of a block.
-constexpr int kBlockSize = 8;
+constexpr int kBlockShift = 3;
+constexpr int kBlockSize = 1 << kBlockShift;
 constexpr int kBlockPixels = kBlockSize * kBlockSize;
 constexpr int kGroup = std::min(kLanes, 16);
 constexpr int kGroupWidth = std::min(kGroup, kBlockSize);
@@ -68,7 +70,8 @@ struct Piece {
     };
     std::array<Edge, 3> edges;
     std::array<double, 3> z;
-    double reciprocalArea, bias;
+    int64_t area;
+    double bias;
     int x0, y0, x1, y1;  // pixels that can be covered: x0 <= x <= x1, y0 <= y <= y1
     uint32_t id;
     bool front, reversed, isSmall;
@@ -105,6 +108,16 @@ Result compareValues(Compare compare, Value a, Value b) {
     return Result(false);
 }
 
+// A row of a block, or the part of it inside the image; nearly always the whole, by instructions of that size.
+template <class From, class To>
+void copyRow(const From* from, To* to, size_t count) {
+    static_assert(sizeof(From) == sizeof(To));
+    if (count == kBlockSize)
+        std::memcpy(to, from, kBlockSize * sizeof(From));
+    else
+        std::memcpy(to, from, count * sizeof(From));
+}
+
 uint8_t stencilResult(StencilOperation operation, uint8_t stored, uint8_t reference) {
     switch (operation) {
         case StencilOperation::keep:
@@ -134,13 +147,17 @@ struct PieceDepth {
     using Kernels = RasterKernels<Row>;
     using vec3 = typename Kernels::vec3;
 
-    explicit PieceDepth(const Piece& piece)
-        : z(Row(piece.z[0]), Row(piece.z[1]), Row(piece.z[2])),
-          lowest(std::min({piece.z[0], piece.z[1], piece.z[2]})),
-          highest(std::max({piece.z[0], piece.z[1], piece.z[2]})),
-          reciprocalArea(piece.reciprocalArea),
-          bias(piece.bias),
-          hasBias(piece.bias != 0) {}
+    // Many small pieces turn out to cover nothing: set when the first sample is covered.
+    bool isSet = false;
+    void set(const Piece& piece) {
+        z = vec3(Row(piece.z[0]), Row(piece.z[1]), Row(piece.z[2]));
+        lowest = Row(std::min({piece.z[0], piece.z[1], piece.z[2]}));
+        highest = Row(std::max({piece.z[0], piece.z[1], piece.z[2]}));
+        reciprocalArea = Row(1.0 / static_cast<double>(piece.area));
+        bias = Row(piece.bias);
+        hasBias = piece.bias != 0;
+        isSet = true;
+    }
 
     // The depths for the edge values e (rules 5 and 7).
     [[gnu::always_inline]] Row at(const vec3& e) const {
@@ -149,9 +166,9 @@ struct PieceDepth {
         return hasBias ? depth + bias : depth;
     }
 
-    vec3 z;
-    Row lowest, highest, reciprocalArea, bias;
-    bool hasBias;
+    vec3 z{Row(0.0), Row(0.0), Row(0.0)};
+    Row lowest{0.0}, highest{0.0}, reciprocalArea{0.0}, bias{0.0};
+    bool hasBias = false;
 };
 
 class TileRasterizerOfLevel final : public TileRasterizer {
@@ -198,8 +215,7 @@ class TileRasterizerOfLevel final : public TileRasterizer {
         return {(int64_t{x} << n) + ((position[0] << n) >> 4), (int64_t{y} << n) + ((position[1] << n) >> 4)};
     }
     size_t blockOffset(int blockX, int blockY, int sample) const {
-        const int row = (blockY - rectangle_.tileY) / kBlockSize,
-                  column = (blockX - rectangle_.tileX) / kBlockSize;
+        const int row = (blockY - rectangle_.tileY) >> kBlockShift, column = (blockX - rectangle_.tileX) >> kBlockShift;
         return static_cast<size_t>((sample * blockRows_ + row) * blockColumns_ + column) * kBlockPixels;
     }
     bool holdsBlock(int blockX, int blockY) const {
@@ -254,26 +270,26 @@ void TileRasterizerOfLevel::load(RenderTarget& target) {
     const size_t total = static_cast<size_t>(blockColumns_ * blockRows_ * format_.samples) * kBlockPixels;
     depth_.resize(total);
     copyPlanes(target.depth,
-               [&](const uint32_t* from, size_t to, size_t n) { std::copy_n(from, n, &depth_[to]); });
+               [&](const uint32_t* from, size_t to, size_t n) { copyRow(from, &depth_[to], n); });
     if (used_.id) {
         id_.resize(total);
         copyPlanes(target.id,
-                   [&](const uint32_t* from, size_t to, size_t n) { std::copy_n(from, n, &id_[to]); });
+                   [&](const uint32_t* from, size_t to, size_t n) { copyRow(from, &id_[to], n); });
     }
     if (used_.stencil) {
         stencil_.resize(total);
         copyPlanes(target.stencil,
-                   [&](const uint8_t* from, size_t to, size_t n) { std::copy_n(from, n, &stencil_[to]); });
+                   [&](const uint8_t* from, size_t to, size_t n) { copyRow(from, &stencil_[to], n); });
     }
 }
 
 void TileRasterizerOfLevel::store(RenderTarget& target) const {
-    copyPlanes(target.depth, [&](uint32_t* to, size_t from, size_t n) { std::copy_n(&depth_[from], n, to); });
+    copyPlanes(target.depth, [&](uint32_t* to, size_t from, size_t n) { copyRow(&depth_[from], to, n); });
     if (used_.id)
-        copyPlanes(target.id, [&](uint32_t* to, size_t from, size_t n) { std::copy_n(&id_[from], n, to); });
+        copyPlanes(target.id, [&](uint32_t* to, size_t from, size_t n) { copyRow(&id_[from], to, n); });
     if (used_.stencil)
         copyPlanes(target.stencil,
-                   [&](uint8_t* to, size_t from, size_t n) { std::copy_n(&stencil_[from], n, to); });
+                   [&](uint8_t* to, size_t from, size_t n) { copyRow(&stencil_[from], to, n); });
 }
 
 Piece TileRasterizerOfLevel::preparePiece(const RenderTarget& target, uint32_t number,
@@ -289,8 +305,7 @@ Piece TileRasterizerOfLevel::preparePiece(const RenderTarget& target, uint32_t n
         piece.z[i] = v[i]->z;
     }
     const Piece::Edge &e1 = piece.edges[1], &e2 = piece.edges[2];
-    piece.reciprocalArea =
-        1.0 / static_cast<double>(int64_t{e2.stepY} * e1.stepX - int64_t{e1.stepY} * e2.stepX);
+    piece.area = int64_t{e2.stepY} * e1.stepX - int64_t{e1.stepY} * e2.stepX;
     const auto [xMin, xMax] = std::minmax({v[0]->x_subpx, v[1]->x_subpx, v[2]->x_subpx});
     const auto [yMin, yMax] = std::minmax({v[0]->y_subpx, v[1]->y_subpx, v[2]->y_subpx});
     piece.isSmall = xMax - xMin <= kSmallExtent_subpx && yMax - yMin <= kSmallExtent_subpx;
@@ -362,7 +377,7 @@ template <class Visit>
 // 32-bit edge values.
 template <class Real, bool kPlain>
 void TileRasterizerOfLevel::drawSmallPiece(const Piece& piece) {
-    const PieceDepth<Real> depth(piece);
+    PieceDepth<Real> depth;
     const int n = format_.subpixelBits;
     int32_t stepX[3], stepY[3];
     GroupInt lanes[3], excluded[3];
@@ -384,6 +399,7 @@ void TileRasterizerOfLevel::drawSmallPiece(const Piece& piece) {
             GroupMask covered = outside >= splat(0);
             if (!whole) covered = covered && insideRectangle(group);
             if (!anyOf(covered)) return;
+            if (!depth.isSet) depth.set(piece);
             test<Real, kPlain>(piece, depth,
                                {convertLanes<Real>(e[0]), convertLanes<Real>(e[1]), convertLanes<Real>(e[2])}, group,
                                covered);
@@ -396,7 +412,7 @@ void TileRasterizerOfLevel::drawSmallPiece(const Piece& piece) {
 // |step| <= 2^25, so |E >> n| < 7 * 2 * 2^25 < 2^29 in the block. Depth takes E itself, below 2^53, from doubles.
 template <class Real, bool kPlain>
 void TileRasterizerOfLevel::drawLargePiece(const Piece& piece) {
-    const PieceDepth<Real> depth(piece);
+    PieceDepth<Real> depth;
     const int n = format_.subpixelBits;
     GroupInt lanes[3];
     GroupDouble laneValues[3];
@@ -436,6 +452,7 @@ void TileRasterizerOfLevel::drawLargePiece(const Piece& piece) {
             GroupMask covered = outside >= splat(0);
             if (!whole) covered = covered && insideRectangle(group);
             if (!anyOf(covered)) return;
+            if (!depth.isSet) depth.set(piece);
             const auto edgeValue = [&](int i) {
                 const PartDouble atGroup(first[i] + (stepX[i] * x + stepY[i] * y));
                 GroupDouble e;
@@ -484,8 +501,10 @@ void TileRasterizerOfLevel::drawGroup(std::span<const Piece> pieces) {
                 }));
             };
             const auto& edges = pieces[k].edges;
-            test<Real, false>(pieces[k], PieceDepth<Real>(pieces[k]),
-                       {edgeValue(edges[0]), edgeValue(edges[1]), edgeValue(edges[2])}, group, mine);
+            PieceDepth<Real> depth;
+            depth.set(pieces[k]);
+            test<Real, false>(pieces[k], depth, {edgeValue(edges[0]), edgeValue(edges[1]), edgeValue(edges[2])},
+                              group, mine);
         }
     };
     forEachBlock(box, [&](int x, int y, int sample) {

@@ -19,6 +19,7 @@ TileGrid::TileGrid(const Viewport& viewport, int tileSize, const RenderTargetFor
       firstY_(viewport.y / tileSize),
       columns_((viewport.x + viewport.width - 1) / tileSize - firstX_ + 1),
       rows_((viewport.y + viewport.height - 1) / tileSize - firstY_ + 1),
+      samples_(format.samples),
       x_(format, 0),
       y_(format, 1),
       columnOfBlock_(tileOfBlocks(viewport.x + viewport.width, tileSize, firstX_)),

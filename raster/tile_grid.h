@@ -29,6 +29,8 @@ class SampleInterval {
     }
     int first(int32_t min_subpx) const { return (min_subpx - highest_ + (1 << bits_) - 1) >> bits_; }
     int last(int32_t max_subpx) const { return (max_subpx - lowest_) >> bits_; }
+    // The first sample of a pixel.
+    int32_t sampleOf(int pixel) const { return (pixel << bits_) + lowest_; }
 
   private:
     int bits_;
@@ -44,16 +46,26 @@ class TileGrid {
         return static_cast<size_t>(row) * static_cast<size_t>(columns_) + static_cast<size_t>(column);
     }
 
-    // The tiles that samples of a box of subpixels can be in; kNoTiles when it holds no sample of the
-    // viewport.
-    TileBox tilesOf(int32_t xMin_subpx, int32_t yMin_subpx, int32_t xMax_subpx, int32_t yMax_subpx) const {
-        const int x0 = std::max(x_.first(xMin_subpx), viewport_.x),
-                  y0 = std::max(y_.first(yMin_subpx), viewport_.y);
-        const int x1 = std::min(x_.last(xMax_subpx), viewport_.x + viewport_.width - 1);
-        const int y1 = std::min(y_.last(yMax_subpx), viewport_.y + viewport_.height - 1);
-        if (x0 > x1 || y0 > y1) return kNoTiles;
-        return {columnOf(x0), rowOf(y0), columnOf(x1), rowOf(y1)};
+    // The pixels of the viewport x0 <= x <= x1, y0 <= y <= y1 that have a sample in a box of subpixels; none when x0 > x1
+    // or y0 > y1.
+    struct PixelBox {
+        int x0, y0, x1, y1;
+        bool empty() const { return x0 > x1 || y0 > y1; }
+    };
+    PixelBox pixelsOf(int32_t xMin_subpx, int32_t yMin_subpx, int32_t xMax_subpx, int32_t yMax_subpx) const {
+        return {std::max(x_.first(xMin_subpx), viewport_.x), std::max(y_.first(yMin_subpx), viewport_.y),
+                std::min(x_.last(xMax_subpx), viewport_.x + viewport_.width - 1),
+                std::min(y_.last(yMax_subpx), viewport_.y + viewport_.height - 1)};
     }
+    TileBox tilesOf(const PixelBox& box) const {
+        if (box.empty()) return kNoTiles;
+        return {columnOf(box.x0), rowOf(box.y0), columnOf(box.x1), rowOf(box.y1)};
+    }
+
+    // The only sample of a pixel, in a format with one sample per pixel.
+    bool hasOneSample() const { return samples_ == 1; }
+    int32_t sampleX_subpx(int x) const { return x_.sampleOf(x); }
+    int32_t sampleY_subpx(int y) const { return y_.sampleOf(y); }
 
     // The pixels of a tile inside the viewport, and the tile's corner.
     struct Rectangle {
@@ -71,6 +83,7 @@ class TileGrid {
     Viewport viewport_;
     int size_, firstX_, firstY_, columns_,
         rows_;  // firstX_, firstY_: tiles are counted from the target's corner
+    int samples_;
     SampleInterval x_, y_;
     std::vector<uint16_t> columnOfBlock_, rowOfBlock_;
 };

@@ -66,7 +66,8 @@ void compareShaded(Peer& peer, const PeerPass& pass, const std::string& name, co
     constexpr double kBound = 0.01;
     peer.device.run(pass.commands);
     const std::vector<float> colour = peer.device.download(pass.colour, 4);
-    const ShadedImages images = drawShaded(place(w, "f32"), samples, {});
+    const PlacedWorkload work = place(w, "f32");
+    const ShadedImages images = shadeVisible(work, drawDepth(work, samples, {}), {});
     const Image<float>& beauty = images[ShadeOutput::beauty];
     Differences differences(kBound);
     for (int c = 0; c < 3; c++)

@@ -3,7 +3,9 @@
 #include <doctest/doctest.h>
 
 #include <atomic>
+#include <chrono>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 #include "numeric/check.h"
@@ -16,6 +18,20 @@ TEST_CASE("EveryItemRunsOnceWhateverTheThreads") {
         std::vector<std::atomic<int>> runs(1000);
         parallelFor(runs.size(), threads, [&](size_t i) { runs[i]++; });
         for (const auto& count : runs) CHECK(count == 1);
+    }
+}
+
+// Each item waits for the other, so that a call ends only if two threads are at work.
+TEST_CASE("EveryCallHasItsThreads") {
+    for (int call = 0; call < 5; call++) {
+        std::atomic<int> arrived{0};
+        parallelFor(2, 2, [&](size_t) {
+            arrived++;
+            const auto start = std::chrono::steady_clock::now();
+            while (arrived < 2 && std::chrono::steady_clock::now() - start < std::chrono::seconds(20))
+                std::this_thread::yield();
+            CHECK_MESSAGE(arrived == 2, "call ", call);
+        });
     }
 }
 
