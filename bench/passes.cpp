@@ -28,7 +28,8 @@ VisibleScene drawDepth(const PlacedWorkload& work, int samples, const RasterOpti
 }
 
 void drawDepth(VisibleScene& visible, const PlacedWorkload& work, int samples, const RasterOptions& options) {
-    findVisible(visible, work.workload->scene, work.placed, work.workload->view, *work.profile, samples, options);
+    findVisible(visible, work.workload->scene, work.placed, work.workload->view, *work.profile, samples,
+                options);
 }
 
 ShadedImages shadeVisible(const PlacedWorkload& work, const VisibleScene& visible,

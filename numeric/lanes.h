@@ -14,9 +14,7 @@
 #include <type_traits>
 #include <utility>
 
-#if defined(__x86_64__)
-#include <immintrin.h>
-#endif
+#include "numeric/lanes_registers.h"
 
 namespace etalon {
 
@@ -125,6 +123,8 @@ Lanes<S, N> select(Mask<S, N> c, Lanes<S, N> a, Lanes<S, N> b) {
 }
 template <class S, int N>
 Lanes<S, N> squareRoot(Lanes<S, N> a) {
+    if constexpr (registers::Functions<S, N>::kNative)
+        return Lanes<S, N>(registers::Functions<S, N>::squareRoot(a.v));
     for (int i = 0; i < N; i++)
         a.v[i] = static_cast<S>(sizeof(S) == 4 ? __builtin_sqrtf(static_cast<float>(a.v[i]))
                                                : __builtin_sqrt(a.v[i]));
@@ -133,6 +133,8 @@ Lanes<S, N> squareRoot(Lanes<S, N> a) {
 // Largest whole number that is not greater; -0 stays -0.
 template <class S, int N>
 Lanes<S, N> floorOf(Lanes<S, N> a) {
+    if constexpr (registers::Functions<S, N>::kNative)
+        return Lanes<S, N>(registers::Functions<S, N>::floor(a.v));
     for (int i = 0; i < N; i++)
         a.v[i] = static_cast<S>(sizeof(S) == 4 ? __builtin_floorf(static_cast<float>(a.v[i]))
                                                : __builtin_floor(a.v[i]));
@@ -171,15 +173,20 @@ bool anyOf(Mask<S, N> c) {
 // to an integer: truncated, the value must be inside To's range).
 template <class To, class S, int N>
 Lanes<To, N> convertLanes(Lanes<S, N> a) {
-    return Lanes<To, N>(__builtin_convertvector(a.v, typename Lanes<To, N>::Vector));
+    using Vector = typename Lanes<To, N>::Vector;
+    if constexpr (registers::Conversion<To, S, N>::kNative)
+        return Lanes<To, N>(registers::Conversion<To, S, N>::template of<Vector>(a.v));
+    else
+        return Lanes<To, N>(__builtin_convertvector(a.v, Vector));
 }
-// The lanes of a, then those of b. Compilers take vectors wider than a register apart lane by lane; work on registers and
-// joining them is faster.
+// The lanes of a, then those of b. Compilers take vectors wider than a register apart lane by lane; work on
+// registers and joining them is faster.
 template <class S, int N>
 Lanes<S, 2 * N> joinLanes(Lanes<S, N> a, Lanes<S, N> b) {
     return [&]<int... I>(std::integer_sequence<int, I...>) {
         return Lanes<S, 2 * N>(__builtin_shufflevector(a.v, b.v, I...));
-    }(std::make_integer_sequence<int, 2 * N>{});
+    }
+    (std::make_integer_sequence<int, 2 * N>{});
 }
 // The same mask for lanes of another scalar type.
 template <class To, class S, int N>

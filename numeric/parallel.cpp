@@ -51,7 +51,8 @@ void runItems(size_t count, int threads, const std::function<void(size_t)>& body
 }
 #else
 void runItems(size_t count, int threads, const std::function<void(size_t)>& body) {
-    // More threads than the hardware has must be allowed explicitly. Never taken back: workers are slow to come again.
+    // More threads than the hardware has must be allowed explicitly. Never taken back: workers are slow to
+    // come again.
     static std::mutex mutex;
     static std::optional<tbb::global_control> allowed;
     static int allowedThreads = hardwareThreads();

@@ -28,7 +28,7 @@ struct RasterStatistics {
     uint64_t zeroArea = 0;          // after snapping
     uint64_t culled = 0;            // by facing
     uint64_t missed = 0;            // small and whole, and known to cover no sample when set up
-    uint64_t records = 0;  // triangles and pieces that were drawn
+    uint64_t records = 0;           // triangles and pieces that were drawn
 
     friend bool operator==(const RasterStatistics&, const RasterStatistics&) = default;
 };

@@ -121,8 +121,8 @@ void TriangleSetup::addTriangle(const DrawInput& input, uint32_t index,
 }
 
 // True if the triangle is small and covers none of the samples in its box. Positive orientation.
-bool TriangleSetup::missesAll(const TileGrid::PixelBox& box, const ProjectedVertex& a, const ProjectedVertex& b,
-                              const ProjectedVertex& c) const {
+bool TriangleSetup::missesAll(const TileGrid::PixelBox& box, const ProjectedVertex& a,
+                              const ProjectedVertex& b, const ProjectedVertex& c) const {
     constexpr int kFewPixels = 4;
     if (!grid_->hasOneSample() || (box.x1 - box.x0 + 1) * (box.y1 - box.y0 + 1) > kFewPixels) return false;
     for (int y = box.y0; y <= box.y1; y++)

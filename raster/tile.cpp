@@ -108,7 +108,8 @@ Result compareValues(Compare compare, Value a, Value b) {
     return Result(false);
 }
 
-// A row of a block, or the part of it inside the image; nearly always the whole, by instructions of that size.
+// A row of a block, or the part of it inside the image; nearly always the whole, by instructions of that
+// size.
 template <class From, class To>
 void copyRow(const From* from, To* to, size_t count) {
     static_assert(sizeof(From) == sizeof(To));
@@ -215,7 +216,8 @@ class TileRasterizerOfLevel final : public TileRasterizer {
         return {(int64_t{x} << n) + ((position[0] << n) >> 4), (int64_t{y} << n) + ((position[1] << n) >> 4)};
     }
     size_t blockOffset(int blockX, int blockY, int sample) const {
-        const int row = (blockY - rectangle_.tileY) >> kBlockShift, column = (blockX - rectangle_.tileX) >> kBlockShift;
+        const int row = (blockY - rectangle_.tileY) >> kBlockShift,
+                  column = (blockX - rectangle_.tileX) >> kBlockShift;
         return static_cast<size_t>((sample * blockRows_ + row) * blockColumns_ + column) * kBlockPixels;
     }
     bool holdsBlock(int blockX, int blockY) const {
@@ -273,8 +275,7 @@ void TileRasterizerOfLevel::load(RenderTarget& target) {
                [&](const uint32_t* from, size_t to, size_t n) { copyRow(from, &depth_[to], n); });
     if (used_.id) {
         id_.resize(total);
-        copyPlanes(target.id,
-                   [&](const uint32_t* from, size_t to, size_t n) { copyRow(from, &id_[to], n); });
+        copyPlanes(target.id, [&](const uint32_t* from, size_t to, size_t n) { copyRow(from, &id_[to], n); });
     }
     if (used_.stencil) {
         stencil_.resize(total);
@@ -359,17 +360,20 @@ void TileRasterizerOfLevel::forEachBlock(const Piece& piece, Visit visit) const 
             for (int s = 0; s < format_.samples; s++) visit(x, y, s);
 }
 
-// Calls visit(group, x, y) for the groups of a block that hold pixels of the piece's box; (x, y) is the group's place
-// in the block.
+// Calls visit(group, x, y) for the groups of a block that hold pixels of the piece's box; (x, y) is the
+// group's place in the block.
 template <class Visit>
-[[gnu::always_inline]] inline void TileRasterizerOfLevel::forEachGroup(const Piece& piece, int blockX, int blockY,
-                                                                       int sample, Visit visit) const {
+[[gnu::always_inline]] inline void TileRasterizerOfLevel::forEachGroup(const Piece& piece, int blockX,
+                                                                       int blockY, int sample,
+                                                                       Visit visit) const {
     const size_t offset = blockOffset(blockX, blockY, sample);
-    const int firstRow = std::max(piece.y0 - blockY, 0), lastRow = std::min(piece.y1 - blockY, kBlockSize - 1);
+    const int firstRow = std::max(piece.y0 - blockY, 0),
+              lastRow = std::min(piece.y1 - blockY, kBlockSize - 1);
     const int last = lastRow * kBlockSize + kBlockSize - 1;
     for (int p = firstRow * kBlockSize / kGroup * kGroup; p <= last; p += kGroup) {
         const int x = p % kBlockSize, y = p / kBlockSize;
-        if (kGroupWidth < kBlockSize && (blockX + x > piece.x1 || blockX + x + kGroupWidth <= piece.x0)) continue;
+        if (kGroupWidth < kBlockSize && (blockX + x > piece.x1 || blockX + x + kGroupWidth <= piece.x0))
+            continue;
         visit(Group{blockX + x, blockY + y, offset + static_cast<size_t>(p)}, x, y);
     }
 }
@@ -401,15 +405,16 @@ void TileRasterizerOfLevel::drawSmallPiece(const Piece& piece) {
             if (!anyOf(covered)) return;
             if (!depth.isSet) depth.set(piece);
             test<Real, kPlain>(piece, depth,
-                               {convertLanes<Real>(e[0]), convertLanes<Real>(e[1]), convertLanes<Real>(e[2])}, group,
-                               covered);
+                               {convertLanes<Real>(e[0]), convertLanes<Real>(e[1]), convertLanes<Real>(e[2])},
+                               group, covered);
         });
     });
 }
 
-// Decides each edge for the whole block first; groups then look at the undecided edges only. There edge values are
-// floored to whole pixels' steps, E >> n, which keeps the sign and fits 32 bits near an undecided edge:
-// |step| <= 2^25, so |E >> n| < 7 * 2 * 2^25 < 2^29 in the block. Depth takes E itself, below 2^53, from doubles.
+// Decides each edge for the whole block first; groups then look at the undecided edges only. There edge
+// values are floored to whole pixels' steps, E >> n, which keeps the sign and fits 32 bits near an undecided
+// edge: |step| <= 2^25, so |E >> n| < 7 * 2 * 2^25 < 2^29 in the block. Depth takes E itself, below 2^53,
+// from doubles.
 template <class Real, bool kPlain>
 void TileRasterizerOfLevel::drawLargePiece(const Piece& piece) {
     PieceDepth<Real> depth;
@@ -503,8 +508,8 @@ void TileRasterizerOfLevel::drawGroup(std::span<const Piece> pieces) {
             const auto& edges = pieces[k].edges;
             PieceDepth<Real> depth;
             depth.set(pieces[k]);
-            test<Real, false>(pieces[k], depth, {edgeValue(edges[0]), edgeValue(edges[1]), edgeValue(edges[2])},
-                              group, mine);
+            test<Real, false>(pieces[k], depth,
+                              {edgeValue(edges[0]), edgeValue(edges[1]), edgeValue(edges[2])}, group, mine);
         }
     };
     forEachBlock(box, [&](int x, int y, int sample) {
@@ -536,7 +541,8 @@ GroupMask TileRasterizerOfLevel::winding(std::span<const Piece> pieces, int64_t 
 
 // Depth and stencil test and the writes. kPlain: the draw's state isPlain.
 template <class Real, bool kPlain>
-[[gnu::always_inline]] inline void TileRasterizerOfLevel::test(const Piece& piece, const PieceDepth<Real>& pieceDepth,
+[[gnu::always_inline]] inline void TileRasterizerOfLevel::test(const Piece& piece,
+                                                               const PieceDepth<Real>& pieceDepth,
                                                                const typename PieceDepth<Real>::vec3& e,
                                                                const Group& group, GroupMask covered) {
     const DrawState& state = *piece.state;

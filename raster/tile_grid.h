@@ -46,8 +46,8 @@ class TileGrid {
         return static_cast<size_t>(row) * static_cast<size_t>(columns_) + static_cast<size_t>(column);
     }
 
-    // The pixels of the viewport x0 <= x <= x1, y0 <= y <= y1 that have a sample in a box of subpixels; none when x0 > x1
-    // or y0 > y1.
+    // The pixels of the viewport x0 <= x <= x1, y0 <= y <= y1 that have a sample in a box of subpixels; none
+    // when x0 > x1 or y0 > y1.
     struct PixelBox {
         int x0, y0, x1, y1;
         bool empty() const { return x0 > x1 || y0 > y1; }

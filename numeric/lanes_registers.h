@@ -1,0 +1,83 @@
+// Operations on one vector register that compilers take apart lane by lane: square root, floor and
+// conversions. Each specialisation is the IEEE operation on every lane; without one, the loop or the
+// compiler's conversion does the same.
+#pragma once
+
+#include <cstdint>
+
+#if defined(__x86_64__)
+#include <immintrin.h>
+#elif defined(__aarch64__)
+#include <arm_neon.h>
+#endif
+
+namespace etalon::registers {
+
+// The vector types have N lanes of S.
+template <class S, int N>
+struct Functions {
+    static constexpr bool kNative = false;
+};
+template <class To, class From, int N>
+struct Conversion {
+    static constexpr bool kNative = false;
+};
+
+#define ETALON_REGISTER_FUNCTIONS(S, N, Register, root, down)                     \
+    template <>                                                                   \
+    struct Functions<S, N> {                                                      \
+        static constexpr bool kNative = true;                                     \
+        template <class Vector>                                                   \
+        static Vector squareRoot(Vector v) {                                      \
+            return reinterpret_cast<Vector>(root(reinterpret_cast<Register>(v))); \
+        }                                                                         \
+        template <class Vector>                                                   \
+        static Vector floor(Vector v) {                                           \
+            return reinterpret_cast<Vector>(down(reinterpret_cast<Register>(v))); \
+        }                                                                         \
+    };
+#define ETALON_REGISTER_CONVERSION(To, From, N, Register, convert)                     \
+    template <>                                                                        \
+    struct Conversion<To, From, N> {                                                   \
+        static constexpr bool kNative = true;                                          \
+        template <class ToVector, class FromVector>                                    \
+        static ToVector of(FromVector v) {                                             \
+            return reinterpret_cast<ToVector>(convert(reinterpret_cast<Register>(v))); \
+        }                                                                              \
+    };
+
+#if defined(__AVX512F__)
+inline __m512 floor512(__m512 v) {
+    return _mm512_roundscale_ps(v, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC);
+}
+inline __m512d floor512(__m512d v) {
+    return _mm512_roundscale_pd(v, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC);
+}
+ETALON_REGISTER_FUNCTIONS(float, 16, __m512, _mm512_sqrt_ps, floor512)
+ETALON_REGISTER_FUNCTIONS(double, 8, __m512d, _mm512_sqrt_pd, floor512)
+ETALON_REGISTER_CONVERSION(float, double, 8, __m512d, _mm512_cvtpd_ps)
+ETALON_REGISTER_CONVERSION(double, float, 8, __m256, _mm512_cvtps_pd)
+ETALON_REGISTER_CONVERSION(double, int32_t, 8, __m256i, _mm512_cvtepi32_pd)
+ETALON_REGISTER_CONVERSION(int32_t, double, 8, __m512d, _mm512_cvttpd_epi32)
+#endif
+#if defined(__AVX2__)
+ETALON_REGISTER_FUNCTIONS(float, 8, __m256, _mm256_sqrt_ps, _mm256_floor_ps)
+ETALON_REGISTER_FUNCTIONS(double, 4, __m256d, _mm256_sqrt_pd, _mm256_floor_pd)
+ETALON_REGISTER_CONVERSION(float, double, 4, __m256d, _mm256_cvtpd_ps)
+ETALON_REGISTER_CONVERSION(double, float, 4, __m128, _mm256_cvtps_pd)
+ETALON_REGISTER_CONVERSION(double, int32_t, 4, __m128i, _mm256_cvtepi32_pd)
+ETALON_REGISTER_CONVERSION(int32_t, double, 4, __m256d, _mm256_cvttpd_epi32)
+#endif
+#if defined(__SSE4_1__)
+ETALON_REGISTER_FUNCTIONS(float, 4, __m128, _mm_sqrt_ps, _mm_floor_ps)
+ETALON_REGISTER_FUNCTIONS(double, 2, __m128d, _mm_sqrt_pd, _mm_floor_pd)
+#endif
+#if defined(__aarch64__)
+ETALON_REGISTER_FUNCTIONS(float, 4, float32x4_t, vsqrtq_f32, vrndmq_f32)
+ETALON_REGISTER_FUNCTIONS(double, 2, float64x2_t, vsqrtq_f64, vrndmq_f64)
+#endif
+
+#undef ETALON_REGISTER_FUNCTIONS
+#undef ETALON_REGISTER_CONVERSION
+
+}  // namespace etalon::registers
