@@ -188,10 +188,6 @@ ExitCode runCheckBits(const BitsOptions& options, const std::vector<BitCase>& ca
                                       {"same", same},
                                       {"results", list}})
                           : text);
-    if (results.empty()) {
-        fmt::print(stderr, "etalon: nothing to check: no case matches \"{}\"\n", options.pattern);
-        return ExitCode::nothingToCheck;
-    }
     return same == results.size() && rules == kRulesVersion ? ExitCode::done : ExitCode::difference;
 }
 
@@ -199,6 +195,10 @@ ExitCode runBits(const BitsOptions& options, const std::vector<BitCase>& allCase
     std::vector<BitCase> cases = allCases;
     std::erase_if(cases,
                   [&](const BitCase& c) { return fnmatch(options.pattern.c_str(), c.name.c_str(), 0) != 0; });
+    if (cases.empty()) {
+        fmt::print(stderr, "etalon: nothing to check: no case matches \"{}\"\n", options.pattern);
+        return ExitCode::nothingToCheck;
+    }
     if (options.accept) return runAccept(options, cases);
     if (!options.dump.empty()) return runDump(options, cases);
     return runCheckBits(options, cases, allCases);

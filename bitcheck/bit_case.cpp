@@ -4,7 +4,10 @@ namespace etalon {
 
 std::vector<BitCase> bitCases() {
     std::vector<BitCase> cases;
+    addNumericCases(cases);
     addRasterCases(cases);
+    addImageCases(cases);
+    addShadingCases(cases);
     return cases;
 }
 

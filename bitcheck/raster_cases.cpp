@@ -9,7 +9,7 @@ namespace etalon {
 namespace {
 
 constexpr int kSize_px = 128;
-// Off the borders of every tile size, and not of even width.
+// The second is off the borders of every tile size, and of odd width.
 constexpr Viewport kWhole = {0, 0, kSize_px, kSize_px}, kPart = {19, 7, 93, 104};
 
 std::vector<BitPlane> planesOf(const RenderTarget& target) {
@@ -36,15 +36,23 @@ void addKnot(DrawList& list, RasterReal real, const DrawState& state, int thread
 
 // A mesh, large and small triangles, and some that the planes cut.
 std::vector<BitPlane> drawMixed(const RenderTargetFormat& format, const RasterOptions& options) {
+    const int size = format.samples == 16 ? kSize_px / 2 : kSize_px;
+    const Viewport viewport = {0, 0, size, size};
     Random random(2);
     DrawList list;
-    DrawState back;
-    back.depthCompare = Compare::lessEqual;
-    addKnot(list, format.real, back, options.threads);
-    for (const Soup family : {Soup::inside, Soup::slivers, Soup::onSamples, Soup::nearFar})
-        list.add(triangleSoup(random, family, 40, kWhole), twoSided());
-    RenderTarget target(kSize_px, kSize_px, format);
-    rasterize(target, kWhole, list.draws(), options);
+    // Most triangles leave the mesh visible.
+    DrawState mesh, around = twoSided();
+    mesh.depthCompare = Compare::lessEqual;
+    mesh.stencil.enabled = around.stencil.enabled = true;
+    mesh.stencil.reference = around.stencil.reference = 1;
+    mesh.stencil.front.onPass = StencilOperation::replace;
+    around.stencil.front.compare = around.stencil.back.compare = Compare::notEqual;
+    addKnot(list, format.real, mesh, options.threads);
+    list.add(triangleSoup(random, Soup::slivers, 24, viewport), twoSided());
+    for (const Soup family : {Soup::inside, Soup::onSamples, Soup::nearFar})
+        list.add(triangleSoup(random, family, 24, viewport), around);
+    RenderTarget target(size, size, format);
+    rasterize(target, viewport, list.draws(), options);
     return planesOf(target);
 }
 
