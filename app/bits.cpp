@@ -32,6 +32,10 @@ std::string readFile(const std::string& file) {
     return {std::istreambuf_iterator<char>(stream), {}};
 }
 
+bool matches(const std::string& pattern, const std::string& name) {
+    return fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
+}
+
 std::span<const std::byte> bytesOf(const std::string& text) { return std::as_bytes(std::span(text)); }
 
 // The levels and threads of this machine.
@@ -107,11 +111,8 @@ std::vector<BitResult> checkAll(const BitsOptions& options, const std::vector<Bi
         results.push_back(checkCase(c, waysOf(options.ways, c), expected.reference,
                                     expected.words ? &expected.words->cases : nullptr));
     }
-    for (const CaseHashes& c : expected.reference.cases)
-        if (fnmatch(options.pattern.c_str(), c.name.c_str(), 0) == 0 &&
-            std::ranges::find(allCases, c.name, &BitCase::name) == allCases.end())
-            results.push_back(
-                {c.name, {}, BitVerdict::obsolete, "this program has no such case", {}, {}, {}});
+    for (const BitResult& obsolete : findObsolete(expected.reference, allCases))
+        if (matches(options.pattern, obsolete.name)) results.push_back(obsolete);
     return results;
 }
 
@@ -193,8 +194,7 @@ ExitCode runCheckBits(const BitsOptions& options, const std::vector<BitCase>& ca
 
 ExitCode runBits(const BitsOptions& options, const std::vector<BitCase>& allCases) {
     std::vector<BitCase> cases = allCases;
-    std::erase_if(cases,
-                  [&](const BitCase& c) { return fnmatch(options.pattern.c_str(), c.name.c_str(), 0) != 0; });
+    std::erase_if(cases, [&](const BitCase& c) { return !matches(options.pattern, c.name); });
     if (cases.empty()) {
         fmt::print(stderr, "etalon: nothing to check: no case matches \"{}\"\n", options.pattern);
         return ExitCode::nothingToCheck;

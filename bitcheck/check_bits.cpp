@@ -145,4 +145,13 @@ BitResult checkCase(const BitCase& c, const std::vector<BitWay>& ways, const Bit
     return result;
 }
 
+std::vector<BitResult> findObsolete(const BitReference& reference, const std::vector<BitCase>& cases) {
+    std::vector<BitResult> results;
+    for (const CaseHashes& c : reference.cases)
+        if (std::ranges::find(cases, c.name, &BitCase::name) == cases.end())
+            results.push_back(
+                {c.name, {}, BitVerdict::obsolete, "this program has no such case", {}, {}, {}});
+    return results;
+}
+
 }  // namespace etalon

@@ -56,4 +56,7 @@ struct BitResult {
 BitResult checkCase(const BitCase& c, const std::vector<BitWay>& ways, const BitReference& reference,
                     const std::vector<CasePlanes>* expected = nullptr);
 
+// A result `obsolete` for each case of the reference that is not among the program's.
+std::vector<BitResult> findObsolete(const BitReference& reference, const std::vector<BitCase>& cases);
+
 }  // namespace etalon

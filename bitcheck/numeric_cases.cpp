@@ -1,5 +1,6 @@
 // Number types, elementary functions, sums and samplers on tables of arguments.
 #include <limits>
+#include <span>
 
 #include "bitcheck/bit_case.h"
 #include "bitcheck/inputs.h"

@@ -12,8 +12,17 @@ constexpr int kSize_px = 128;
 // The second is off the borders of every tile size, and of odd width.
 constexpr Viewport kWhole = {0, 0, kSize_px, kSize_px}, kPart = {19, 7, 93, 104};
 
+// Ids as the draw and the triangle that they stand for: how records are numbered is not a rule.
 std::vector<BitPlane> planesOf(const RenderTarget& target) {
-    return {planeOf("depth", target.depth), planeOf("stencil", target.stencil), planeOf("id", target.id)};
+    Image<uint32_t> draw(target.width(), target.height(), target.format.samples), triangle = draw;
+    for (size_t i = 0; i < target.id.values().size(); i++) {
+        const uint32_t id = target.id.values()[i];
+        const bool isEmpty = id == kNoTriangle;
+        draw.values()[i] = isEmpty ? kNoTriangle : target.triangle(id).draw;
+        triangle.values()[i] = isEmpty ? kNoTriangle : target.triangle(id).triangle;
+    }
+    return {planeOf("depth", target.depth), planeOf("stencil", target.stencil), planeOf("draw", draw),
+            planeOf("triangle", triangle)};
 }
 
 DrawState twoSided() {

@@ -1,4 +1,5 @@
 // The vertex stage, and what views see: every material in every profile, cube maps of the scene.
+#include <bit>
 #include <string>
 
 #include "bitcheck/bit_case.h"
