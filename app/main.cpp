@@ -19,11 +19,13 @@ int main(int argc, char** argv) {
     CLI::App app;
     etalon::ExitCode exitCode = etalon::ExitCode::done;
     const etalon::GoldenSupport golden{renderGolden, std::to_string(etalon::kRulesVersion)};
+    const std::vector<etalon::BitCase> cases = etalon::bitCases();
     etalon::configureCommand(app);
     etalon::addRender(app, exitCode);
     etalon::addPlan(app, exitCode);
     etalon::addCompare(app, exitCode);
     etalon::addCheck(app, exitCode, golden);
     etalon::addAccept(app, exitCode, golden);
+    etalon::addBits(app, exitCode, cases);
     return static_cast<int>(etalon::runCommand(app, exitCode, argc, argv));
 }

@@ -13,13 +13,28 @@
 namespace etalon {
 
 // --isa for a verb that renders: selects the level when it is parsed.
-inline void addIsaOption(CLI::App& verb) {
+inline CLI::Option* addIsaOption(CLI::App& verb) {
     std::vector<std::string> names;
     for (const IsaLevel level : usableIsaLevels()) names.push_back(isaName(level));
-    verb.add_option_function<std::string>(
+    return verb
+        .add_option_function<std::string>(
             "--isa", [](const std::string& name) { selectIsa(*findIsa(name)); },
             "Instruction set level of the inner loops; default: the widest. Changes no bit")
         ->check(CLI::IsMember(names));
+}
+
+// --threads and --tile, into an int or an optional one.
+template <class Integer>
+void addThreadsOption(CLI::App& verb, Integer& threads) {
+    verb.add_option("--threads", threads, "Threads; 0: all. Changes no bit")->check(CLI::Range(0, 1024));
+}
+template <class Integer>
+void addTileOption(CLI::App& verb, Integer& tileSize) {
+    verb.add_option("--tile", tileSize, "Tile size in pixels, a multiple of 8. Changes no bit")
+        ->check(CLI::Range(8, 256))
+        ->check([](const std::string& text) {
+            return std::stoi(text) % 8 == 0 ? std::string() : "tile size " + text + " is not a multiple of 8";
+        });
 }
 
 struct SceneOptions {
@@ -40,14 +55,8 @@ struct SceneOptions {
             ->check(names(kOutputNames));
         verb.add_flag("--strict", strict, "Questionable input (negative or NaN radiance) is an error");
         addIsaOption(verb);
-        verb.add_option("--threads", raster.threads, "Threads; 0: all. Changes no bit")
-            ->check(CLI::Range(0, 1024));
-        verb.add_option("--tile", raster.tileSize, "Tile size in pixels, a multiple of 8. Changes no bit")
-            ->check(CLI::Range(8, 256))
-            ->check([](const std::string& text) {
-                return std::stoi(text) % 8 == 0 ? std::string()
-                                                : "tile size " + text + " is not a multiple of 8";
-            });
+        addThreadsOption(verb, raster.threads);
+        addTileOption(verb, raster.tileSize);
     }
 
     RenderOptions renderOptions() const {

@@ -3,8 +3,10 @@
 
 #include <CLI/CLI.hpp>
 #include <string>
+#include <vector>
 
 #include "ar/golden.h"
+#include "bitcheck/bit_case.h"
 
 namespace etalon {
 
@@ -23,12 +25,13 @@ struct GoldenSupport {
 };
 
 // Each adds one verb to the command, which when chosen runs inside app.parse() and sets the exit code. Errors
-// are InputError. `exitCode` and what `support` refers to must outlive the parse.
+// are InputError. `exitCode`, `cases` and what `support` refers to must outlive the parse.
 void addRender(CLI::App& app, ExitCode& exitCode);
 void addPlan(CLI::App& app, ExitCode& exitCode);
 void addCompare(CLI::App& app, ExitCode& exitCode);
 void addCheck(CLI::App& app, ExitCode& exitCode, const GoldenSupport& support);
 void addAccept(CLI::App& app, ExitCode& exitCode, const GoldenSupport& support);
+void addBits(CLI::App& app, ExitCode& exitCode, const std::vector<BitCase>& cases);
 
 // Settings of the command itself: name, --version, exactly one verb, unknown options are errors.
 void configureCommand(CLI::App& app);

@@ -2,8 +2,9 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-set(etalon_installed_targets etalon_numeric_flags etalon_numeric etalon_truth etalon_raster etalon_lighting)
-set(etalon_installed_folders numeric raster lighting)
+set(etalon_installed_targets etalon_numeric_flags etalon_numeric etalon_truth etalon_raster etalon_lighting
+                             etalon_bitcheck)
+set(etalon_installed_folders numeric raster lighting bitcheck)
 if(ETALON_APP)
   list(APPEND etalon_installed_targets etalon_ar)
   list(APPEND etalon_installed_folders ar)

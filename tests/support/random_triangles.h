@@ -1,43 +1,14 @@
-// Random numbers that are the same everywhere, and families of triangles that are hard to rasterize.
+// Families of triangles that are hard to rasterize.
 #pragma once
 
 #include <array>
-#include <cstddef>
 #include <cstdint>
 
+#include "numeric/random.h"
 #include "raster/draw.h"
 #include "raster/rasterizer.h"
 
 namespace etalon {
-
-// splitmix64 [Steele2014]: the same sequence on every machine, unlike the standard distributions.
-class Random {
-  public:
-    explicit Random(uint64_t seed) : state_(seed) {}
-
-    uint64_t next() {
-        uint64_t z = state_ += 0x9e3779b97f4a7c15u;
-        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-        z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-        return z ^ (z >> 31);
-    }
-    // In [low, high).
-    double uniform(double low, double high) {
-        return low + static_cast<double>(next() >> 11) * 0x1p-53 * (high - low);
-    }
-    // In low ... high, both included.
-    int integer(int low, int high) {
-        return low + static_cast<int>(next() % (static_cast<uint64_t>(high - low) + 1));
-    }
-    bool chance(double probability) { return uniform(0, 1) < probability; }
-    template <class T, size_t N>
-    T pick(const T (&values)[N]) {
-        return values[next() % N];
-    }
-
-  private:
-    uint64_t state_;
-};
 
 enum class TriangleFamily : uint8_t {
     normal,
