@@ -19,7 +19,7 @@ TEST_CASE("EveryItemRunsOnceWhateverTheThreads") {
     }
 }
 
-TEST_CASE("AnExceptionOfAnItemReachesTheCaller") {
+TEST_CASE("AnExceptionOnAThreadReachesTheCaller") {
     CHECK_THROWS_AS(parallelFor(100, 2,
                                 [](size_t i) {
                                     if (i == 57) throw std::runtime_error("57");
