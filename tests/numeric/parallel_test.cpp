@@ -35,7 +35,7 @@ TEST_CASE("EveryCallHasItsThreads") {
     }
 }
 
-TEST_CASE("AnExceptionOfAnItemReachesTheCaller") {
+TEST_CASE("AnExceptionOnAThreadReachesTheCaller") {
     CHECK_THROWS_AS(parallelFor(100, 2,
                                 [](size_t i) {
                                     if (i == 57) throw std::runtime_error("57");
