@@ -39,8 +39,9 @@ void addKnot(DrawList& list, RasterReal real, const DrawState& state, int thread
     scene.instances.resize(1);
     scene.instances[0].toWorld[3][1] = 1.1;
     const std::vector<PlacedMesh> placed = placeMeshes(scene, real, threads);
-    list.add(toClipSpace(placed[0], demoView(kSize_px, kSize_px), real, threads), scene.meshes[0].indices,
-             state);
+    UninitializedVector<ClipVertex> clip;
+    toClipSpace(placed[0], demoView(kSize_px, kSize_px), real, threads, clip);
+    list.add({clip.begin(), clip.end()}, scene.meshes[0].indices, state);
 }
 
 // A mesh, large and small triangles, and some that the planes cut.

@@ -29,7 +29,8 @@ BitPlane planeOfPoints(std::string name, const Points& points, int coordinates, 
 std::vector<BitPlane> vertexStage(RasterReal real, int threads) {
     const SurfaceScene scene = demoScene();
     const auto placed = placeMeshes(scene, real, threads);
-    const auto clip = toClipSpace(placed[0], demoView(128, 128), real, threads);
+    UninitializedVector<ClipVertex> clip;
+    toClipSpace(placed[0], demoView(128, 128), real, threads, clip);
     const auto axis = [](const glm::dvec3& p, int c) { return p[c]; };
     return {planeOfPoints("positions", placed[0].positions, 3, axis),
             planeOfPoints("normals", placed[0].normals, 3, axis),

@@ -120,7 +120,9 @@ std::vector<SnappedTriangle> snapped(const Workload& w) {
     constexpr double kSubpixels = 256;
     const PlacedWorkload work = place(w, "f32");
     std::vector<int32_t> x, y;
-    for (const ClipVertex& v : toClipSpace(work.placed[0], w.view, RasterReal::fp32, 0)) {
+    UninitializedVector<ClipVertex> vertices;
+    toClipSpace(work.placed[0], w.view, RasterReal::fp32, 0, vertices);
+    for (const ClipVertex& v : vertices) {
         x.push_back(static_cast<int32_t>(std::nearbyint((v.x / v.w + 1) / 2 * w.view.width * kSubpixels)));
         y.push_back(static_cast<int32_t>(std::nearbyint((1 - v.y / v.w) / 2 * w.view.height * kSubpixels)));
     }
