@@ -31,8 +31,6 @@ void findVisible(VisibleScene& visible, const SurfaceScene& scene, const std::ve
     RenderTarget& target = visible.target;
     if (target.width() != view.width || target.height() != view.height || target.format != format)
         target = RenderTarget(view.width, view.height, format);
-    else if (target.drawCount > 0)
-        target.clear();
     visible.instanceOfDraw.clear();
     visible.vertices.resize(scene.instances.size());
 
@@ -48,7 +46,9 @@ void findVisible(VisibleScene& visible, const SurfaceScene& scene, const std::ve
         draws.push_back(draw);
         visible.instanceOfDraw.push_back(i);
     }
-    visible.statistics = rasterize(target, {0, 0, view.width, view.height}, draws, options);
+    RasterOptions cleared = options;
+    cleared.clear = true;
+    visible.statistics = rasterize(target, {0, 0, view.width, view.height}, draws, cleared);
 }
 
 CubeRender renderCubeMap(const SurfaceScene& scene, const std::vector<PlacedMesh>& placed,

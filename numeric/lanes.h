@@ -188,6 +188,20 @@ Lanes<S, 2 * N> joinLanes(Lanes<S, N> a, Lanes<S, N> b) {
     }
     (std::make_integer_sequence<int, 2 * N>{});
 }
+template <class S, int N>
+Lanes<S, N / 2> lowerHalf(Lanes<S, N> a) {
+    return [&]<int... I>(std::integer_sequence<int, I...>) {
+        return Lanes<S, N / 2>(__builtin_shufflevector(a.v, a.v, I...));
+    }
+    (std::make_integer_sequence<int, N / 2>{});
+}
+template <class S, int N>
+Lanes<S, N / 2> upperHalf(Lanes<S, N> a) {
+    return [&]<int... I>(std::integer_sequence<int, I...>) {
+        return Lanes<S, N / 2>(__builtin_shufflevector(a.v, a.v, (N / 2 + I)...));
+    }
+    (std::make_integer_sequence<int, N / 2>{});
+}
 // The same mask for lanes of another scalar type.
 template <class To, class S, int N>
 Mask<To, N> convertMask(Mask<S, N> c) {

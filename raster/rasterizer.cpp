@@ -158,17 +158,16 @@ class Rasterization {
     }
 
     void drawTiles() {
-        UsedPlanes used;
+        TileWork work{&target_, draws_, target_.drawCount, options_.clear, false, false};
         for (const Draw& draw : draws_) {
-            used.id = used.id || draw.state.idWrite;
-            used.stencil = used.stencil || draw.state.stencil.enabled;
+            work.usesId = work.usesId || draw.state.idWrite;
+            work.usesStencil = work.usesStencil || draw.state.stencil.enabled;
         }
         parallelFor(grid_.count(), options_.threads, [&](size_t t) {
             const size_t first = scratch_.firstListed[t], size = scratch_.firstListed[t + 1] - first;
-            if (size == 0) return;
+            if (size == 0 && !work.clear) return;
             auto rasterizer = scratch_.take();
-            rasterizer->run(target_, grid_.rectangle(t), draws_, target_.drawCount, used,
-                            std::span(scratch_.listed).subspan(first, size));
+            rasterizer->run(work, grid_.rectangle(t), std::span(scratch_.listed).subspan(first, size));
             scratch_.giveBack(std::move(rasterizer));
         });
     }
@@ -195,6 +194,12 @@ RasterStatistics rasterize(RenderTarget& target, const Viewport& viewport, std::
                  viewport.height, target.width(), target.height());
     ETALON_CHECK(options.tileSize >= 8 && options.tileSize <= 256 && options.tileSize % 8 == 0,
                  "tileSize = {}", options.tileSize);
+    if (options.clear) {
+        ETALON_CHECK(viewport.width == target.width() && viewport.height == target.height(),
+                     "a viewport of {}x{} clears only a part of {}x{}", viewport.width, viewport.height,
+                     target.width(), target.height());
+        target.forgetTriangles();
+    }
     return Rasterization(target, viewport, draws, options).run();
 }
 

@@ -14,10 +14,13 @@ struct Viewport {
     int x = 0, y = 0, width = 0, height = 0;
 };
 
-// How the work is cut. Changes no bit.
+// How the work is done. Threads and tiles change no bit.
 struct RasterOptions {
     int threads = 0;    // 0: all hardware threads
     int tileSize = 64;  // 8 to 256, a multiple of 8
+    // As RenderTarget::clear before, but tile by tile, which is faster. The viewport must be the whole
+    // target.
+    bool clear = false;
 };
 
 struct RasterStatistics {

@@ -56,6 +56,10 @@ void RenderTarget::clear() {
     depth.fill(farthestDepth(format.depth));
     stencil.fill(0);
     id.fill(kNoTriangle);
+    forgetTriangles();
+}
+
+void RenderTarget::forgetTriangles() {
     drawCount = 0;
     triangles.clear();
     vertices.clear();

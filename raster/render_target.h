@@ -91,6 +91,8 @@ class RenderTarget {
 
     // Back to the state after construction; keeps the memory.
     void clear();
+    // The part of it besides depth, stencil and id.
+    void forgetTriangles();
 
     // Triangles and pieces that were drawn; their ids are 0 .. triangleCount() - 1.
     size_t triangleCount() const { return triangles.size(); }

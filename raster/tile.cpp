@@ -2,58 +2,22 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <vector>
 
 #include "raster/depth.h"
 #include "raster/setup.h"
+#include "raster/tile_group.h"
 
 namespace etalon {
 namespace {
 
-// Coverage is decided in blocks of 8 x 8 pixels; a tile's planes are stored block by block, so that a group
-// of lanes is contiguous: one pixel, half a row, a row or two rows of a block.
-constexpr int kBlockShift = 3;
-constexpr int kBlockSize = 1 << kBlockShift;
-constexpr int kBlockPixels = kBlockSize * kBlockSize;
-constexpr int kGroup = std::min(kLanes, 16);
-constexpr int kGroupWidth = std::min(kGroup, kBlockSize);
+// Large triangles are decided in blocks of 8 x 8 pixels first.
+constexpr int kBlockSize = 8;
+static_assert(kBlockSize % kGroupWidth == 0 && kBlockSize % kGroupRows == 0);
 
-using GroupInt = Lanes<int32_t, kGroup>;
-using GroupMask = Mask<int32_t, kGroup>;
-// The group in registers of double.
-constexpr int kPart = std::min(kGroup, kNativeLanes<double>);
-constexpr int kParts = kGroup / kPart;
-static_assert(kParts <= 2);
-using PartDouble = Lanes<double, kPart>;
-using GroupDouble = std::array<PartDouble, kParts>;
 using Rectangle = TileGrid::Rectangle;
 
-GroupInt splat(int32_t value) { return GroupInt(GroupInt::Vector{} + value); }
-GroupInt laneX() {
-    return GroupInt::generate([](int i) { return i % kBlockSize; });
-}
-GroupInt laneY() {
-    return GroupInt::generate([](int i) { return i / kBlockSize; });
-}
-// f(i) for lane i.
-template <class F>
-GroupDouble generateDoubles(F f) {
-    GroupDouble doubles;
-    for (int part = 0; part < kParts; part++)
-        doubles[static_cast<size_t>(part)] = PartDouble::generate([&](int i) { return f(part * kPart + i); });
-    return doubles;
-}
-// Each lane rounded once to Real.
-template <class Real>
-[[gnu::always_inline]] inline Lanes<Real, kGroup> groupOf(const GroupDouble& a) {
-    if constexpr (kParts == 1)
-        return convertLanes<Real>(a[0]);
-    else
-        return joinLanes(convertLanes<Real>(a[0]), convertLanes<Real>(a[1]));
-}
-
-// Edges whose values fit 32 bits everywhere in the blocks that the triangle touches: those of triangles of at
+// Edges whose values fit 32 bits everywhere in the groups that the triangle touches: those of triangles of at
 // most 2^14 subpixels. Then |E| <= 2 * 2^14 * (2^14 + 2 * 8 * 2^8) < 2^31.
 constexpr int32_t kSmallExtent_subpx = 1 << 14;
 
@@ -106,17 +70,6 @@ Result compareValues(Compare compare, Value a, Value b) {
             return Result(true);
     }
     return Result(false);
-}
-
-// A row of a block, or the part of it inside the image; nearly always the whole, by instructions of that
-// size.
-template <class From, class To>
-void copyRow(const From* from, To* to, size_t count) {
-    static_assert(sizeof(From) == sizeof(To));
-    if (count == kBlockSize)
-        std::memcpy(to, from, kBlockSize * sizeof(From));
-    else
-        std::memcpy(to, from, count * sizeof(From));
 }
 
 uint8_t stencilResult(StencilOperation operation, uint8_t stored, uint8_t reference) {
@@ -174,18 +127,20 @@ struct PieceDepth {
 
 class TileRasterizerOfLevel final : public TileRasterizer {
   public:
-    void run(RenderTarget& target, const Rectangle& rectangle, std::span<const Draw> draws,
-             uint32_t firstDraw, const UsedPlanes& used, std::span<const uint32_t> triangles) override;
+    void run(const TileWork& work, const Rectangle& rectangle, std::span<const uint32_t> triangles) override;
 
   private:
     template <class Stored, class Copy>
-    void copyPlanes(Image<Stored>& image, Copy copy) const;
-    void load(RenderTarget& target);
-    void store(RenderTarget& target) const;
+    void forEachRow(Image<Stored>& image, Copy copy) const;
+    template <class Stored, class Kept>
+    void load(bool used, const TileWork& work, Image<Stored>& image, Stored cleared,
+              std::vector<Kept>& plane);
+    template <class Stored, class Kept>
+    void store(bool used, const TileWork& work, Image<Stored>& image, Stored cleared,
+               const std::vector<Kept>& plane) const;
     Piece preparePiece(const RenderTarget& target, uint32_t number, const DrawState& state) const;
     template <class Real>
-    void drawAll(const RenderTarget& target, std::span<const Draw> draws, uint32_t firstDraw,
-                 std::span<const uint32_t> triangles);
+    void drawAll(const TileWork& work, std::span<const uint32_t> triangles);
     template <class Real>
     void drawPiece(const Piece& piece);
     template <class Real, bool kPlain>
@@ -197,9 +152,7 @@ class TileRasterizerOfLevel final : public TileRasterizer {
     GroupMask winding(std::span<const Piece> pieces, int64_t x_subpx, int64_t y_subpx,
                       std::span<int> firstCovering) const;
     template <class Visit>
-    void forEachBlock(const Piece& piece, Visit visit) const;
-    template <class Visit>
-    void forEachGroup(const Piece& piece, int blockX, int blockY, int sample, Visit visit) const;
+    void forEachGroup(const Piece& box, int sample, Visit visit) const;
     GroupMask insideRectangle(const Group& group) const;
     template <class Real, bool kPlain>
     void test(const Piece& piece, const PieceDepth<Real>& depth, const typename PieceDepth<Real>::vec3& e,
@@ -215,82 +168,81 @@ class TileRasterizerOfLevel final : public TileRasterizer {
         const int n = format_.subpixelBits;
         return {(int64_t{x} << n) + ((position[0] << n) >> 4), (int64_t{y} << n) + ((position[1] << n) >> 4)};
     }
-    size_t blockOffset(int blockX, int blockY, int sample) const {
-        const int row = (blockY - rectangle_.tileY) >> kBlockShift,
-                  column = (blockX - rectangle_.tileX) >> kBlockShift;
-        return static_cast<size_t>((sample * blockRows_ + row) * blockColumns_ + column) * kBlockPixels;
+    size_t offsetOf(int x, int y, int sample) const {
+        const auto line = static_cast<size_t>(sample * rows_ + (y - rectangle_.tileY));
+        return line * stride_ + static_cast<size_t>(x - rectangle_.tileX);
     }
-    bool holdsBlock(int blockX, int blockY) const {
-        return blockX >= rectangle_.x0 && blockX + kBlockSize <= rectangle_.x1 && blockY >= rectangle_.y0 &&
-               blockY + kBlockSize <= rectangle_.y1;
+    bool holds(const Group& group) const {
+        return group.x >= rectangle_.x0 && group.x + kGroupWidth <= rectangle_.x1 &&
+               group.y >= rectangle_.y0 && group.y + kGroupRows <= rectangle_.y1;
     }
 
     Rectangle rectangle_{};
     RenderTargetFormat format_;
-    UsedPlanes used_;
     std::span<const std::array<int, 2>> samplePositions_;
-    int blockColumns_ = 0, blockRows_ = 0;
+    // Planes have room for a group that starts at the last pixel.
+    int rows_ = 0;
+    size_t stride_ = 0;
+    std::vector<SampleInterval> intervals_;  // in x, in y
     std::vector<int32_t> depth_, id_;
     std::vector<uint8_t> stencil_;
     std::vector<Piece> group_;
 };
 
-void TileRasterizerOfLevel::run(RenderTarget& target, const Rectangle& rectangle, std::span<const Draw> draws,
-                                uint32_t firstDraw, const UsedPlanes& used,
+void TileRasterizerOfLevel::run(const TileWork& work, const Rectangle& rectangle,
                                 std::span<const uint32_t> triangles) {
+    RenderTarget& target = *work.target;
     rectangle_ = rectangle;
     format_ = target.format;
-    used_ = used;
     samplePositions_ = samplePositions(format_.samples);
-    blockColumns_ = (rectangle.x1 - rectangle.tileX + kBlockSize - 1) / kBlockSize;
-    blockRows_ = (rectangle.y1 - rectangle.tileY + kBlockSize - 1) / kBlockSize;
-    load(target);
+    intervals_ = {SampleInterval(format_, 0), SampleInterval(format_, 1)};
+    rows_ = rectangle.y1 - rectangle.tileY + kGroupRows - 1;
+    stride_ = static_cast<size_t>(rectangle.x1 - rectangle.tileX + kGroupWidth - 1);
+    load(true, work, target.depth, farthestDepth(format_.depth), depth_);
+    load(work.usesId, work, target.id, kNoTriangle, id_);
+    load(work.usesStencil, work, target.stencil, uint8_t{0}, stencil_);
     if (format_.real == RasterReal::fp32)
-        drawAll<float>(target, draws, firstDraw, triangles);
+        drawAll<float>(work, triangles);
     else
-        drawAll<double>(target, draws, firstDraw, triangles);
-    store(target);
+        drawAll<double>(work, triangles);
+    store(true, work, target.depth, farthestDepth(format_.depth), depth_);
+    store(work.usesId, work, target.id, kNoTriangle, id_);
+    store(work.usesStencil, work, target.stencil, uint8_t{0}, stencil_);
 }
 
-// Calls copy(values of the image, offset in the tile's planes, count) for each row of each block in the
+// Calls copy(first value of the row in the image, offset in the tile's plane, count) for each row of the
 // rectangle.
 template <class Stored, class Copy>
-void TileRasterizerOfLevel::copyPlanes(Image<Stored>& image, Copy copy) const {
-    for (int s = 0; s < format_.samples; s++) {
-        for (int y = rectangle_.y0; y < rectangle_.y1; y++) {
-            const int line = (y - rectangle_.tileY) % kBlockSize;
-            const std::span<Stored> row = image.row(y, s);
-            for (int x = rectangle_.tileX; x < rectangle_.x1; x += kBlockSize)
-                copy(&row[static_cast<size_t>(x)],
-                     blockOffset(x, y - line, s) + static_cast<size_t>(line * kBlockSize),
-                     static_cast<size_t>(std::min(kBlockSize, rectangle_.x1 - x)));
-        }
-    }
+void TileRasterizerOfLevel::forEachRow(Image<Stored>& image, Copy copy) const {
+    const auto count = static_cast<size_t>(rectangle_.x1 - rectangle_.x0);
+    for (int s = 0; s < format_.samples; s++)
+        for (int y = rectangle_.y0; y < rectangle_.y1; y++)
+            copy(&image.at(rectangle_.x0, y, s), offsetOf(rectangle_.x0, y, s), count);
 }
 
-void TileRasterizerOfLevel::load(RenderTarget& target) {
-    const size_t total = static_cast<size_t>(blockColumns_ * blockRows_ * format_.samples) * kBlockPixels;
-    depth_.resize(total);
-    copyPlanes(target.depth,
-               [&](const uint32_t* from, size_t to, size_t n) { copyRow(from, &depth_[to], n); });
-    if (used_.id) {
-        id_.resize(total);
-        copyPlanes(target.id, [&](const uint32_t* from, size_t to, size_t n) { copyRow(from, &id_[to], n); });
+// Fills the tile's plane from the image, or as cleared.
+template <class Stored, class Kept>
+void TileRasterizerOfLevel::load(bool used, const TileWork& work, Image<Stored>& image, Stored cleared,
+                                 std::vector<Kept>& plane) {
+    if (!used) return;
+    const size_t total = static_cast<size_t>(rows_ * format_.samples) * stride_;
+    if (work.clear) {
+        plane.assign(total, static_cast<Kept>(cleared));
+        return;
     }
-    if (used_.stencil) {
-        stencil_.resize(total);
-        copyPlanes(target.stencil,
-                   [&](const uint8_t* from, size_t to, size_t n) { copyRow(from, &stencil_[to], n); });
-    }
+    plane.resize(total);
+    forEachRow(image,
+               [&](const Stored* from, size_t to, size_t count) { std::copy_n(from, count, &plane[to]); });
 }
 
-void TileRasterizerOfLevel::store(RenderTarget& target) const {
-    copyPlanes(target.depth, [&](uint32_t* to, size_t from, size_t n) { copyRow(&depth_[from], to, n); });
-    if (used_.id)
-        copyPlanes(target.id, [&](uint32_t* to, size_t from, size_t n) { copyRow(&id_[from], to, n); });
-    if (used_.stencil)
-        copyPlanes(target.stencil,
-                   [&](uint8_t* to, size_t from, size_t n) { copyRow(&stencil_[from], to, n); });
+template <class Stored, class Kept>
+void TileRasterizerOfLevel::store(bool used, const TileWork& work, Image<Stored>& image, Stored cleared,
+                                  const std::vector<Kept>& plane) const {
+    if (used)
+        forEachRow(image,
+                   [&](Stored* to, size_t from, size_t count) { std::copy_n(&plane[from], count, to); });
+    else if (work.clear)
+        forEachRow(image, [&](Stored* to, size_t, size_t count) { std::fill_n(to, count, cleared); });
 }
 
 Piece TileRasterizerOfLevel::preparePiece(const RenderTarget& target, uint32_t number,
@@ -310,27 +262,26 @@ Piece TileRasterizerOfLevel::preparePiece(const RenderTarget& target, uint32_t n
     const auto [xMin, xMax] = std::minmax({v[0]->x_subpx, v[1]->x_subpx, v[2]->x_subpx});
     const auto [yMin, yMax] = std::minmax({v[0]->y_subpx, v[1]->y_subpx, v[2]->y_subpx});
     piece.isSmall = xMax - xMin <= kSmallExtent_subpx && yMax - yMin <= kSmallExtent_subpx;
-    const int n = format_.subpixelBits;
-    piece.x0 = std::max(xMin >> n, rectangle_.x0);
-    piece.y0 = std::max(yMin >> n, rectangle_.y0);
-    piece.x1 = std::min(xMax >> n, rectangle_.x1 - 1);
-    piece.y1 = std::min(yMax >> n, rectangle_.y1 - 1);
+    piece.x0 = std::max(intervals_[0].first(xMin), rectangle_.x0);
+    piece.y0 = std::max(intervals_[1].first(yMin), rectangle_.y0);
+    piece.x1 = std::min(intervals_[0].last(xMax), rectangle_.x1 - 1);
+    piece.y1 = std::min(intervals_[1].last(yMax), rectangle_.y1 - 1);
     piece.id = number;
     piece.front = stored.front;
     piece.reversed = stored.reversed;
     piece.state = &state;
     piece.bias = state.bias.constant == 0 && state.bias.slopeScale == 0
                      ? 0
-                     : depthBias(state.bias, format_.depth, target.triangle(number), n);
+                     : depthBias(state.bias, format_.depth, target.triangle(number), format_.subpixelBits);
     return piece;
 }
 
 template <class Real>
-void TileRasterizerOfLevel::drawAll(const RenderTarget& target, std::span<const Draw> draws,
-                                    uint32_t firstDraw, std::span<const uint32_t> triangles) {
+void TileRasterizerOfLevel::drawAll(const TileWork& work, std::span<const uint32_t> triangles) {
+    const RenderTarget& target = *work.target;
     for (const uint32_t number : triangles) {
         const StoredTriangle& stored = target.triangles[number];
-        const DrawState& state = draws[stored.draw - firstDraw].state;
+        const DrawState& state = work.draws[stored.draw - work.firstDraw].state;
         if (stored.groupSize == 0) {
             drawPiece<Real>(preparePiece(target, number, state));
             continue;
@@ -352,29 +303,15 @@ void TileRasterizerOfLevel::drawPiece(const Piece& piece) {
         plain ? drawLargePiece<Real, true>(piece) : drawLargePiece<Real, false>(piece);
 }
 
-// Calls visit(blockX, blockY, sample) for each block and sample plane that the piece's box touches.
+// Calls visit(group, x, y) for groups that cover the piece's box; (x, y) is the group's place in the box.
 template <class Visit>
-void TileRasterizerOfLevel::forEachBlock(const Piece& piece, Visit visit) const {
-    for (int y = piece.y0 & -kBlockSize; y <= piece.y1; y += kBlockSize)
-        for (int x = piece.x0 & -kBlockSize; x <= piece.x1; x += kBlockSize)
-            for (int s = 0; s < format_.samples; s++) visit(x, y, s);
-}
-
-// Calls visit(group, x, y) for the groups of a block that hold pixels of the piece's box; (x, y) is the
-// group's place in the block.
-template <class Visit>
-[[gnu::always_inline]] inline void TileRasterizerOfLevel::forEachGroup(const Piece& piece, int blockX,
-                                                                       int blockY, int sample,
+[[gnu::always_inline]] inline void TileRasterizerOfLevel::forEachGroup(const Piece& box, int sample,
                                                                        Visit visit) const {
-    const size_t offset = blockOffset(blockX, blockY, sample);
-    const int firstRow = std::max(piece.y0 - blockY, 0),
-              lastRow = std::min(piece.y1 - blockY, kBlockSize - 1);
-    const int last = lastRow * kBlockSize + kBlockSize - 1;
-    for (int p = firstRow * kBlockSize / kGroup * kGroup; p <= last; p += kGroup) {
-        const int x = p % kBlockSize, y = p / kBlockSize;
-        if (kGroupWidth < kBlockSize && (blockX + x > piece.x1 || blockX + x + kGroupWidth <= piece.x0))
-            continue;
-        visit(Group{blockX + x, blockY + y, offset + static_cast<size_t>(p)}, x, y);
+    size_t line = offsetOf(box.x0, box.y0, sample);
+    for (int y = box.y0; y <= box.y1; y += kGroupRows, line += kGroupRows * stride_) {
+        size_t offset = line;
+        for (int x = box.x0; x <= box.x1; x += kGroupWidth, offset += kGroupWidth)
+            visit(Group{x, y, offset}, x - box.x0, y - box.y0);
     }
 }
 
@@ -391,33 +328,33 @@ void TileRasterizerOfLevel::drawSmallPiece(const Piece& piece) {
         lanes[i] = splat(stepX[i]) * laneX() + splat(stepY[i]) * laneY();
         excluded[i] = splat(piece.edges[i].excluded);
     }
-    forEachBlock(piece, [&](int blockX, int blockY, int sample) {
-        const auto [x_subpx, y_subpx] = samplePosition(blockX, blockY, sample);
+    for (int s = 0; s < format_.samples; s++) {
+        const auto [x_subpx, y_subpx] = samplePosition(piece.x0, piece.y0, s);
         int32_t first[3];
         for (size_t i = 0; i < 3; i++) first[i] = static_cast<int32_t>(piece.edges[i].at(x_subpx, y_subpx));
-        const bool whole = holdsBlock(blockX, blockY);
-        forEachGroup(piece, blockX, blockY, sample, [&](const Group& group, int x, int y) {
+        forEachGroup(piece, s, [&](const Group& group, int x, int y) {
             GroupInt e[3];
             for (int i = 0; i < 3; i++) e[i] = lanes[i] + splat(first[i] + stepX[i] * x + stepY[i] * y);
             const GroupInt outside = (e[0] - excluded[0]) | (e[1] - excluded[1]) | (e[2] - excluded[2]);
             GroupMask covered = outside >= splat(0);
-            if (!whole) covered = covered && insideRectangle(group);
             if (!anyOf(covered)) return;
+            if (!holds(group)) covered = covered && insideRectangle(group);
             if (!depth.isSet) depth.set(piece);
             test<Real, kPlain>(piece, depth,
                                {convertLanes<Real>(e[0]), convertLanes<Real>(e[1]), convertLanes<Real>(e[2])},
                                group, covered);
         });
-    });
+    }
 }
 
-// Decides each edge for the whole block first; groups then look at the undecided edges only. There edge
-// values are floored to whole pixels' steps, E >> n, which keeps the sign and fits 32 bits near an undecided
-// edge: |step| <= 2^25, so |E >> n| < 7 * 2 * 2^25 < 2^29 in the block. Depth takes E itself, below 2^53,
-// from doubles.
+// Decides each edge for a block first; its groups then look at the undecided edges only. There edge values
+// are floored to whole pixels' steps, E >> n, which keeps the sign and fits 32 bits near an undecided edge:
+// |step| <= 2^25, so |E >> n| < 7 * 2 * 2^25 < 2^29 in the block. Depth takes E itself, below 2^53, from
+// doubles.
 template <class Real, bool kPlain>
 void TileRasterizerOfLevel::drawLargePiece(const Piece& piece) {
     PieceDepth<Real> depth;
+    depth.set(piece);
     const int n = format_.subpixelBits;
     GroupInt lanes[3];
     GroupDouble laneValues[3];
@@ -428,10 +365,10 @@ void TileRasterizerOfLevel::drawLargePiece(const Piece& piece) {
         stepX[i] = static_cast<double>(int64_t{edge.stepX} * (1 << n));
         stepY[i] = static_cast<double>(int64_t{edge.stepY} * (1 << n));
         laneValues[i] = generateDoubles(
-            [&](int lane) { return stepX[i] * (lane % kBlockSize) + stepY[i] * (lane / kBlockSize); });
+            [&](int lane) { return stepX[i] * (lane % kGroupWidth) + stepY[i] * (lane / kGroupWidth); });
     }
-    forEachBlock(piece, [&](int blockX, int blockY, int sample) {
-        const auto [x_subpx, y_subpx] = samplePosition(blockX, blockY, sample);
+    const auto drawBlock = [&](const Piece& block, int sample) {
+        const auto [x_subpx, y_subpx] = samplePosition(block.x0, block.y0, sample);
         int undecided[3], undecidedCount = 0;
         int32_t floored[3];
         double first[3];
@@ -446,8 +383,7 @@ void TileRasterizerOfLevel::drawLargePiece(const Piece& piece) {
             floored[i] = static_cast<int32_t>(value);
             undecided[undecidedCount++] = static_cast<int>(i);
         }
-        const bool whole = holdsBlock(blockX, blockY);
-        forEachGroup(piece, blockX, blockY, sample, [&](const Group& group, int x, int y) {
+        forEachGroup(block, sample, [&](const Group& group, int x, int y) {
             GroupInt outside = splat(0);
             for (int k = 0; k < undecidedCount; k++) {
                 const int i = undecided[k];
@@ -455,9 +391,8 @@ void TileRasterizerOfLevel::drawLargePiece(const Piece& piece) {
                 outside = outside | (lanes[i] + splat(floored[i] + edge.stepX * x + edge.stepY * y));
             }
             GroupMask covered = outside >= splat(0);
-            if (!whole) covered = covered && insideRectangle(group);
+            if (!holds(group)) covered = covered && insideRectangle(group);
             if (!anyOf(covered)) return;
-            if (!depth.isSet) depth.set(piece);
             const auto edgeValue = [&](int i) {
                 const PartDouble atGroup(first[i] + (stepX[i] * x + stepY[i] * y));
                 GroupDouble e;
@@ -466,7 +401,15 @@ void TileRasterizerOfLevel::drawLargePiece(const Piece& piece) {
             };
             test<Real, kPlain>(piece, depth, {edgeValue(0), edgeValue(1), edgeValue(2)}, group, covered);
         });
-    });
+    };
+    Piece block = piece;
+    for (int y = piece.y0; y <= piece.y1; y += kBlockSize)
+        for (int x = piece.x0; x <= piece.x1; x += kBlockSize)
+            for (int s = 0; s < format_.samples; s++) {
+                block.x0 = x, block.x1 = std::min(x + kBlockSize - 1, piece.x1);
+                block.y0 = y, block.y1 = std::min(y + kBlockSize - 1, piece.y1);
+                drawBlock(block, s);
+            }
 }
 
 GroupMask TileRasterizerOfLevel::insideRectangle(const Group& group) const {
@@ -501,8 +444,8 @@ void TileRasterizerOfLevel::drawGroup(std::span<const Piece> pieces) {
             const auto edgeValue = [&](const Piece::Edge& edge) {
                 const int n = format_.subpixelBits;
                 return groupOf<Real>(generateDoubles([&](int i) {
-                    return edge.at(x_subpx + (int64_t{i % kBlockSize} << n),
-                                   y_subpx + (int64_t{i / kBlockSize} << n));
+                    return edge.at(x_subpx + (int64_t{i % kGroupWidth} << n),
+                                   y_subpx + (int64_t{i / kGroupWidth} << n));
                 }));
             };
             const auto& edges = pieces[k].edges;
@@ -512,9 +455,8 @@ void TileRasterizerOfLevel::drawGroup(std::span<const Piece> pieces) {
                               {edgeValue(edges[0]), edgeValue(edges[1]), edgeValue(edges[2])}, group, mine);
         }
     };
-    forEachBlock(box, [&](int x, int y, int sample) {
-        forEachGroup(box, x, y, sample, [&](const Group& group, int, int) { visit(group, sample); });
-    });
+    for (int s = 0; s < format_.samples; s++)
+        forEachGroup(box, s, [&](const Group& group, int, int) { visit(group, s); });
 }
 
 // Which of the group's samples more pieces of the polygon's sign cover than reversed ones, and the first
@@ -523,8 +465,8 @@ GroupMask TileRasterizerOfLevel::winding(std::span<const Piece> pieces, int64_t 
                                          std::span<int> firstCovering) const {
     GroupMask covered(false);
     for (int i = 0; i < kGroup; i++) {
-        const int64_t x = x_subpx + (int64_t{i % kBlockSize} << format_.subpixelBits);
-        const int64_t y = y_subpx + (int64_t{i / kBlockSize} << format_.subpixelBits);
+        const int64_t x = x_subpx + (int64_t{i % kGroupWidth} << format_.subpixelBits);
+        const int64_t y = y_subpx + (int64_t{i / kGroupWidth} << format_.subpixelBits);
         int sum = 0, first = -1;
         for (size_t k = 0; k < pieces.size(); k++) {
             bool inside = true;
@@ -546,7 +488,7 @@ template <class Real, bool kPlain>
                                                                const typename PieceDepth<Real>::vec3& e,
                                                                const Group& group, GroupMask covered) {
     const DrawState& state = *piece.state;
-    const GroupInt stored = GroupInt::load(&depth_[group.offset]);
+    const GroupInt stored = loadGroup(&depth_[group.offset], stride_);
     GroupInt depth;
     GroupMask passed;
     if constexpr (kPlain) {
@@ -557,10 +499,12 @@ template <class Real, bool kPlain>
         passed = covered && compareValues<GroupMask>(state.depthCompare, depth, stored);
         if (state.stencil.enabled) passed = testStencil(piece, group, covered, passed);
     }
-    if (kPlain || state.depthWrite) select(passed, depth, stored).store(&depth_[group.offset]);
-    if (state.idWrite)
-        select(passed, splat(static_cast<int32_t>(piece.id)), GroupInt::load(&id_[group.offset]))
-            .store(&id_[group.offset]);
+    if (kPlain || state.depthWrite) storeGroup(select(passed, depth, stored), &depth_[group.offset], stride_);
+    if (state.idWrite) {
+        int32_t* id = &id_[group.offset];
+        storeGroup(select(passed, splat(static_cast<int32_t>(piece.id)), loadGroup(id, stride_)), id,
+                   stride_);
+    }
 }
 
 // Runs the stencil test and operations; returns the samples that pass both tests.
@@ -571,7 +515,8 @@ GroupMask TileRasterizerOfLevel::testStencil(const Piece& piece, const Group& gr
     GroupMask passed(false);
     for (int i = 0; i < kGroup; i++) {
         if (!covered[i]) continue;
-        uint8_t& stored = stencil_[group.offset + static_cast<size_t>(i)];
+        uint8_t& stored = stencil_[group.offset + static_cast<size_t>(i / kGroupWidth) * stride_ +
+                                   static_cast<size_t>(i % kGroupWidth)];
         StencilOperation operation = face.onStencilFail;
         if (compareValues<bool>(face.compare, stencil.reference & stencil.readMask,
                                 stored & stencil.readMask)) {

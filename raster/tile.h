@@ -11,9 +11,13 @@
 
 namespace etalon {
 
-// Which planes the draws of one call read or write, besides depth.
-struct UsedPlanes {
-    bool id = false, stencil = false;
+// What the tiles of one call have in common.
+struct TileWork {
+    RenderTarget* target;
+    std::span<const Draw> draws;  // they start at the target's draw number firstDraw
+    uint32_t firstDraw;
+    bool clear;                // the tiles start cleared
+    bool usesId, usesStencil;  // some draw does
 };
 
 // Draws tiles, one after the other; keeps a tile's planes.
@@ -21,10 +25,10 @@ class TileRasterizer {
   public:
     virtual ~TileRasterizer() = default;
 
-    // Draws the triangles whose numbers are listed, in that order, with the state of their draw (`draws`
-    // start at the target's draw number firstDraw). A triangle with a groupSize stands for its whole group.
-    virtual void run(RenderTarget& target, const TileGrid::Rectangle& rectangle, std::span<const Draw> draws,
-                     uint32_t firstDraw, const UsedPlanes& used, std::span<const uint32_t> triangles) = 0;
+    // Draws the triangles whose numbers are listed, in that order, with the state of their draw. A triangle
+    // with a groupSize stands for its whole group.
+    virtual void run(const TileWork& work, const TileGrid::Rectangle& rectangle,
+                     std::span<const uint32_t> triangles) = 0;
 };
 
 // Compiled once per level; callers go through raster/raster_passes.h.
