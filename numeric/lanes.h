@@ -188,6 +188,22 @@ Lanes<S, 2 * N> joinLanes(Lanes<S, N> a, Lanes<S, N> b) {
     }
     (std::make_integer_sequence<int, 2 * N>{});
 }
+// The lanes first, first + 1 ... of a, as many as half of it has.
+template <int first, class S, int N>
+Lanes<S, N / 2> halfOfLanes(Lanes<S, N> a) {
+    return [&]<int... I>(std::integer_sequence<int, I...>) {
+        return Lanes<S, N / 2>(__builtin_shufflevector(a.v, a.v, (first + I)...));
+    }
+    (std::make_integer_sequence<int, N / 2>{});
+}
+template <class S, int N>
+Lanes<S, N / 2> lowerLanes(Lanes<S, N> a) {
+    return halfOfLanes<0>(a);
+}
+template <class S, int N>
+Lanes<S, N / 2> upperLanes(Lanes<S, N> a) {
+    return halfOfLanes<N / 2>(a);
+}
 // The same mask for lanes of another scalar type.
 template <class To, class S, int N>
 Mask<To, N> convertMask(Mask<S, N> c) {
