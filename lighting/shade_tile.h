@@ -3,16 +3,15 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 #include <memory>
 #include <vector>
 
 #include "lighting/arithmetic_passes.h"
 #include "lighting/shading_kernels.h"
+#include "lighting/tile_triangles.h"
 #include "numeric/number_lanes.h"
 #include "raster/fragments.h"
-#include "raster/setup.h"
 
 namespace etalon {
 
@@ -28,37 +27,47 @@ class TileShaderOf final : public TileShader {
     static constexpr int N = NumberTraits<T>::lanes;
     static constexpr double kEightPi = 25.132741228718345;
 
-    // Fragments that are shaded by the same texts and constants: their indices in fragments_.
+    using Stored = TexelStorage<T>;
+    using Triangles = TileTriangles<T>;
+    using Weights = typename Triangles::Weights;
+
+    // Fragments that are shaded by the same texts and constants: their numbers, ascending.
     struct Bucket {
         const SurfaceMaterial* material;
         const CubeMap<float>* cube;
         std::vector<uint32_t> fragments;
     };
-    using Group = std::span<const uint32_t>;  // 1 to N fragments of a bucket
-    struct Weights {
-        vec3 b;
-        std::array<TriangleRecord, N> records;
-        std::array<uint32_t, N> ids;
-        std::array<const PlacedMesh*, N> meshes;
+    // 1 to N fragments of a bucket.
+    struct Group {
+        std::span<const uint32_t> fragments;
+        typename Triangles::Group lanes;
+        // Whether the fragments are neighbours in memory.
+        bool isRun() const { return fragments.back() - fragments.front() == fragments.size() - 1; }
+    };
+    // What the lights of a group add up to.
+    struct Reflected {
+        vec3 diffuse, specular;
     };
 
     static vec3 constant(const glm::dvec3& v) { return vec3(T(v.x), T(v.y), T(v.z)); }
-    const Fragment& at(Group group, int lane) const;
+    void setUpTriangles();
+    size_t bucketOf(const SurfaceMaterial& material, const CubeMap<float>* cube);
     void sortIntoBuckets();
-    Bucket& bucketOf(const SurfaceMaterial& material, const CubeMap<float>* cube);
-    void shadeBackground(Group group);
-    void shadeSurface(const Bucket& bucket, Group group);
-    Weights weights(Group group) const;
-    template <class Get>
-    T attribute(const Weights& w, Get get);
-    vec3 albedo(const SurfaceMaterial& material, const Weights& w);
+    Group groupOf(std::span<const uint32_t> fragments) const;
+    void shadeBackground(const Group& group);
+    void shadeSurface(const Bucket& bucket, const Group& group);
+    vec3 albedo(const SurfaceMaterial& material, const Weights& w, const Group& group);
+    Reflected reflected(const SurfaceMaterial& material, vec3 n, vec3 toEye, vec3 surface, bool diffuse,
+                        bool specular);
     vec3 sampleEnvironment(vec3 direction);
     vec3 mirrorRadiance(const Bucket& bucket, vec3 n, vec3 toEye);
-    void put(ShadeOutput output, Group group, vec3 value);
-    void resolve(const PixelRectangle& rectangle, ShadedImages& images);
-    void copyFirstSample(ShadeOutput output, int channels, const PixelRectangle& rectangle,
-                         ShadedImages& images);
-    double& value(ShadeOutput output, uint32_t fragment, int channel);
+    void put(ShadeOutput output, const Group& group, vec3 value);
+    void resolve(ShadeOutput output, const PixelRectangle& rectangle, Image<float>& image);
+    void copyFirstSample(ShadeOutput output, const PixelRectangle& rectangle, Image<float>& image);
+    // The values of a channel, one per fragment.
+    Stored* values(ShadeOutput output, int channel) {
+        return &values_[static_cast<size_t>(output)][static_cast<size_t>(channel) * tile_.size()];
+    }
 
     const ShadeJob& job_;
     K kernels_;
@@ -66,9 +75,10 @@ class TileShaderOf final : public TileShader {
     vec3 ambient_, eye_;
     SamplerSettings sampler_;
     TileFragments tile_;
-    std::vector<Bucket> buckets_;
-    std::vector<uint32_t> background_;
-    std::array<std::vector<double>, kShadeOutputs> values_;
+    Triangles triangles_;
+    std::vector<Bucket> buckets_;  // the first is the background
+    std::vector<size_t> bucketOfTriangle_;
+    std::array<std::vector<Stored>, kShadeOutputs> values_;
 };
 
 template <class T>
@@ -81,6 +91,7 @@ TileShaderOf<T>::TileShaderOf(const ShadeJob& job) : job_(job) {
     eye_ = constant(job.view->eye);
     sampler_.filter = job.profile->textureFilter;
     sampler_.fractionBits = job.profile->textureFractionBits;
+    buckets_.push_back(Bucket{nullptr, nullptr, {}});
 }
 
 template <class T>
@@ -88,59 +99,80 @@ void TileShaderOf<T>::run(const PixelRectangle& rectangle, ShadedImages& images,
                           ShadeStatistics& statistics) {
     // List what is visible, sort it by what shades it, shade, write the images.
     tile_.collect(*job_.target, rectangle);
+    setUpTriangles();
     sortIntoBuckets();
     for (size_t o = 0; o < kShadeOutputs; o++)
-        if (job_.request.wanted[o]) values_[o].assign(3 * tile_.fragments.size(), 0.0);
-    const auto inGroups = [](const std::vector<uint32_t>& list, auto&& body) {
+        if (job_.request.wanted[o]) values_[o].assign(3 * tile_.size(), Stored(0));
+    for (size_t b = 0; b < buckets_.size(); b++) {
+        const std::vector<uint32_t>& list = buckets_[b].fragments;
         forEachLaneGroup<N>(list.size(), [&](size_t first, int active) {
-            body(Group(&list[first], static_cast<size_t>(active)));
+            const Group group = groupOf(std::span(&list[first], static_cast<size_t>(active)));
+            b == 0 ? shadeBackground(group) : shadeSurface(buckets_[b], group);
         });
-    };
-    inGroups(background_, [&](Group group) { shadeBackground(group); });
-    for (const Bucket& bucket : buckets_)
-        inGroups(bucket.fragments, [&](Group group) { shadeSurface(bucket, group); });
-    statistics.backgroundFragments += background_.size();
-    for (const Bucket& bucket : buckets_) statistics.surfaceFragments += bucket.fragments.size();
-    resolve(rectangle, images);
-    copyFirstSample(ShadeOutput::normals, 3, rectangle, images);
-    copyFirstSample(ShadeOutput::distance, 1, rectangle, images);
-}
-
-// The lanes behind a short group repeat its last fragment.
-template <class T>
-const Fragment& TileShaderOf<T>::at(Group group, int lane) const {
-    return tile_.fragments[group[std::min(static_cast<size_t>(lane), group.size() - 1)]];
+        (b == 0 ? statistics.backgroundFragments : statistics.surfaceFragments) += list.size();
+    }
+    for (size_t o = 0; o < kShadeOutputs; o++) {
+        if (!job_.request.wanted[o]) continue;
+        if (o <= static_cast<size_t>(ShadeOutput::beauty) && job_.target->format.samples > 1)
+            resolve(static_cast<ShadeOutput>(o), rectangle, images.images[o]);
+        else
+            copyFirstSample(static_cast<ShadeOutput>(o), rectangle, images.images[o]);
+    }
 }
 
 template <class T>
-typename TileShaderOf<T>::Bucket& TileShaderOf<T>::bucketOf(const SurfaceMaterial& material,
-                                                            const CubeMap<float>* cube) {
-    for (Bucket& bucket : buckets_)
-        if (bucket.material == &material && bucket.cube == cube) return bucket;
-    return buckets_.emplace_back(Bucket{&material, cube, {}});
+size_t TileShaderOf<T>::bucketOf(const SurfaceMaterial& material, const CubeMap<float>* cube) {
+    size_t b = 1;
+    while (b < buckets_.size() && !(buckets_[b].material == &material && buckets_[b].cube == cube)) b++;
+    if (b == buckets_.size()) buckets_.push_back(Bucket{&material, cube, {}});
+    return b;
+}
+
+// Each visible triangle's bucket, and what its fragments share.
+template <class T>
+void TileShaderOf<T>::setUpTriangles() {
+    const size_t count = tile_.triangles.size();
+    triangles_.reset(count);
+    bucketOfTriangle_.assign(count, 0);
+    for (size_t i = 0; i < count; i++) {
+        const uint32_t id = tile_.triangles[i];
+        if (id == kNoTriangle) continue;
+        const uint32_t instance = job_.instanceOfDraw[job_.target->triangles[id].draw];
+        const CubeMap<float>* cube =
+            job_.sceneCubes[instance] ? job_.sceneCubes[instance] : job_.environmentCube;
+        bucketOfTriangle_[i] =
+            bucketOf(job_.scene->materials[job_.scene->instances[instance].material], cube);
+        triangles_.set(i, *job_.target, id, (*job_.placed)[instance]);
+    }
 }
 
 template <class T>
 void TileShaderOf<T>::sortIntoBuckets() {
-    buckets_.clear();
-    background_.clear();
-    for (uint32_t f = 0; f < tile_.fragments.size(); f++) {
-        const uint32_t id = tile_.fragments[f].id;
-        if (id == kNoTriangle) {
-            background_.push_back(f);
-            continue;
-        }
-        const uint32_t instance = job_.instanceOfDraw[job_.target->triangles[id].draw];
-        const CubeMap<float>* cube =
-            job_.sceneCubes[instance] ? job_.sceneCubes[instance] : job_.environmentCube;
-        bucketOf(job_.scene->materials[job_.scene->instances[instance].material], cube)
-            .fragments.push_back(f);
+    for (Bucket& bucket : buckets_) bucket.fragments.clear();
+    for (uint32_t f = 0; f < tile_.size(); f++)
+        buckets_[bucketOfTriangle_[tile_.triangle[f]]].fragments.push_back(f);
+}
+
+// The lanes behind a short group repeat its last fragment.
+template <class T>
+typename TileShaderOf<T>::Group TileShaderOf<T>::groupOf(std::span<const uint32_t> fragments) const {
+    Group group;
+    group.fragments = fragments;
+    auto& lanes = group.lanes;
+    for (size_t i = 0; i < static_cast<size_t>(N); i++) {
+        const uint32_t f = fragments[std::min(i, fragments.size() - 1)];
+        lanes.triangle[i] = tile_.triangle[f];
+        lanes.x_subpx[i] = tile_.x_subpx[f];
+        lanes.y_subpx[i] = tile_.y_subpx[f];
     }
+    lanes.isOneTriangle = std::all_of(lanes.triangle.begin(), lanes.triangle.end(),
+                                      [&](uint32_t t) { return t == lanes.triangle[0]; });
+    return group;
 }
 
 // The environment in the direction of the pixel's centre.
 template <class T>
-void TileShaderOf<T>::shadeBackground(Group group) {
+void TileShaderOf<T>::shadeBackground(const Group& group) {
     put(ShadeOutput::distance, group, constant(glm::dvec3(std::numeric_limits<double>::infinity())));
     if (!job_.request.needs(ShadeOutput::background)) return;
     const SurfaceEnvironment& environment = job_.scene->environment;
@@ -150,8 +182,11 @@ void TileShaderOf<T>::shadeBackground(Group group) {
         return;
     }
     const View& view = *job_.view;
-    const T x = generateNumber<T>([&](int i) { return at(group, i).x + 0.5; });
-    const T y = generateNumber<T>([&](int i) { return at(group, i).y + 0.5; });
+    const int n = job_.target->format.subpixelBits;
+    const auto centre = [&](const std::array<int32_t, N>& position_subpx) {
+        return generateNumber<T>([&](int i) { return (position_subpx[static_cast<size_t>(i)] >> n) + 0.5; });
+    };
+    const T x = centre(group.lanes.x_subpx), y = centre(group.lanes.y_subpx);
     const vec3 ray = kernels_.viewRay(x, y, T(view.centreX_px), T(view.centreY_px), constant(view.forward),
                                       constant(view.perX), constant(view.perY));
     const vec3 direction = kernels_.rotateY(ray, T(environment.cosRotation), T(-environment.sinRotation));
@@ -160,65 +195,8 @@ void TileShaderOf<T>::shadeBackground(Group group) {
     put(ShadeOutput::beauty, group, radiance);
 }
 
-// Perspective-correct weights of the group's fragments (rule 5).
 template <class T>
-typename TileShaderOf<T>::Weights TileShaderOf<T>::weights(Group group) const {
-    Weights w;
-    std::array<std::array<double, N>, 3> e, q;
-    for (int i = 0; i < N; i++) {
-        const Fragment& fragment = at(group, i);
-        const TriangleRecord record = job_.target->triangle(fragment.id);
-        const auto lane = static_cast<size_t>(i);
-        w.records[lane] = record;
-        w.ids[lane] = fragment.id;
-        w.meshes[lane] = &(*job_.placed)[job_.instanceOfDraw[record.draw]];
-        const WeightScale scale = weightScale(record);
-        const auto edges = edgeFunctions(record);
-        for (size_t k = 0; k < 3; k++) {
-            e[k][lane] =
-                static_cast<double>(edges[k].at(fragment.x_subpx, fragment.y_subpx)) * scale.areaScale;
-            q[k][lane] = scale.q[k];
-        }
-    }
-    const auto toNumbers = [](const std::array<std::array<double, N>, 3>& a) {
-        return vec3(generateNumber<T>([&](int i) { return a[0][static_cast<size_t>(i)]; }),
-                    generateNumber<T>([&](int i) { return a[1][static_cast<size_t>(i)]; }),
-                    generateNumber<T>([&](int i) { return a[2][static_cast<size_t>(i)]; }));
-    };
-    K kernels;
-    w.b = kernels.perspectiveWeights(toNumbers(e), toNumbers(q));
-    return w;
-}
-
-// Interpolates the attribute that get(mesh, vertex index) returns. Values below 2^-60 in magnitude are 0.
-template <class T>
-template <class Get>
-T TileShaderOf<T>::attribute(const Weights& w, Get get) {
-    constexpr double kSmallestAttribute = 0x1p-60;
-    std::array<std::array<double, N>, 3> a;
-    for (size_t i = 0; i < N; i++) {
-        const TriangleRecord& record = w.records[i];
-        const PlacedMesh& placed = *w.meshes[i];
-        const uint32_t* index = &placed.mesh->indices[3 * size_t{record.triangle}];
-        const std::array<double, 3> source = {get(placed, index[0]), get(placed, index[1]),
-                                              get(placed, index[2])};
-        for (size_t k = 0; k < 3; k++) {
-            double value = source[record.corner[k]];
-            if (record.clipped) {
-                const auto& beta = job_.target->barycentric(w.ids[i], k);
-                value = beta[0] * source[0] + (beta[1] * source[1] + beta[2] * source[2]);
-            }
-            a[k][i] = std::fabs(value) < kSmallestAttribute ? 0.0 : value;
-        }
-    }
-    return kernels_.interpolateAttribute(
-        w.b, vec3(generateNumber<T>([&](int i) { return a[0][static_cast<size_t>(i)]; }),
-                  generateNumber<T>([&](int i) { return a[1][static_cast<size_t>(i)]; }),
-                  generateNumber<T>([&](int i) { return a[2][static_cast<size_t>(i)]; })));
-}
-
-template <class T>
-void TileShaderOf<T>::shadeSurface(const Bucket& bucket, Group group) {
+void TileShaderOf<T>::shadeSurface(const Bucket& bucket, const Group& group) {
     const SurfaceMaterial& material = *bucket.material;
     const ShadeRequest& request = job_.request;
     const bool hasDiffuse = material.kind != MaterialKind::mirror;
@@ -234,22 +212,14 @@ void TileShaderOf<T>::shadeSurface(const Bucket& bucket, Group group) {
     if (!(ambient || needNormal || needEye)) return;
 
     // Interpolate what the wanted outputs read.
-    const Weights w = weights(group);
+    const Weights w = triangles_.weights(group.lanes);
     vec3 n = constant(glm::dvec3(0)), toEye = n;
     if (needNormal) {
-        const auto facing = [](const TriangleRecord& record) { return record.front ? 1.0 : -1.0; };
-        const T sign = generateNumber<T>([&](int i) { return facing(w.records[static_cast<size_t>(i)]); });
-        n = vec3(attribute(w, [](const PlacedMesh& m, uint32_t v) { return m.normals[v].x; }),
-                 attribute(w, [](const PlacedMesh& m, uint32_t v) { return m.normals[v].y; }),
-                 attribute(w, [](const PlacedMesh& m, uint32_t v) { return m.normals[v].z; }));
-        n = kernels_.scale3(kernels_.unit3(n), sign);
+        n = kernels_.scale3(kernels_.unit3(triangles_.normal(w)), w.facing);
         put(ShadeOutput::normals, group, n);
     }
     if (needEye) {
-        const vec3 position(attribute(w, [](const PlacedMesh& m, uint32_t v) { return m.positions[v].x; }),
-                            attribute(w, [](const PlacedMesh& m, uint32_t v) { return m.positions[v].y; }),
-                            attribute(w, [](const PlacedMesh& m, uint32_t v) { return m.positions[v].z; }));
-        toEye = kernels_.sub3(eye_, position);
+        toEye = kernels_.sub3(eye_, triangles_.position(w, group.lanes));
         if (distance) put(ShadeOutput::distance, group, vec3(kernels_.length3(toEye), T(0.0), T(0.0)));
         toEye = kernels_.unit3(toEye);
     }
@@ -260,36 +230,40 @@ void TileShaderOf<T>::shadeSurface(const Bucket& bucket, Group group) {
         put(output, group, radiance);
         sum = kernels_.add3(sum, radiance);
     };
-    const vec3 surface = ambient || diffuse ? albedo(material, w) : sum;
+    const vec3 surface = ambient || diffuse ? albedo(material, w, group) : sum;
     if (ambient) add(ShadeOutput::ambient, kernels_.mul3(surface, ambient_));
-    if (diffuse) {
-        vec3 reflected = constant(glm::dvec3(0));
-        for (size_t l = 0; l < toLight_.size(); l++)
-            reflected = kernels_.add3(reflected, kernels_.lambert(n, toLight_[l], irradiance_[l], surface));
-        add(ShadeOutput::diffuse, reflected);
-    }
-    if (specular) {
-        const vec3 colour = constant(material.specular);
-        const T exponent(material.exponent), scale((material.exponent + 8.0) / kEightPi);
-        vec3 reflected = constant(glm::dvec3(0));
-        for (size_t l = 0; l < toLight_.size(); l++)
-            reflected = kernels_.add3(reflected, kernels_.blinnPhong(n, toEye, toLight_[l], irradiance_[l],
-                                                                     colour, exponent, scale));
-        add(ShadeOutput::specular, reflected);
-    }
+    const Reflected lights = reflected(material, n, toEye, surface, diffuse, specular);
+    if (diffuse) add(ShadeOutput::diffuse, lights.diffuse);
+    if (specular) add(ShadeOutput::specular, lights.specular);
     if (mirror) add(ShadeOutput::mirror, mirrorRadiance(bucket, n, toEye));
     put(ShadeOutput::beauty, group, sum);
 }
 
+// Flattened, so that constants stay in registers from light to light.
 template <class T>
-typename TileShaderOf<T>::vec3 TileShaderOf<T>::albedo(const SurfaceMaterial& material, const Weights& w) {
+[[gnu::flatten]] typename TileShaderOf<T>::Reflected TileShaderOf<T>::reflected(
+    const SurfaceMaterial& material, vec3 n, vec3 toEye, vec3 surface, bool diffuse, bool specular) {
+    const vec3 colour = constant(material.specular);
+    const T exponent(material.exponent), scale((material.exponent + 8.0) / kEightPi);
+    Reflected sum{constant(glm::dvec3(0)), constant(glm::dvec3(0))};
+    for (size_t l = 0; l < toLight_.size(); l++) {
+        if (diffuse)
+            sum.diffuse =
+                kernels_.add3(sum.diffuse, kernels_.lambert(n, toLight_[l], irradiance_[l], surface));
+        if (specular)
+            sum.specular = kernels_.add3(
+                sum.specular,
+                kernels_.blinnPhong(n, toEye, toLight_[l], irradiance_[l], colour, exponent, scale));
+    }
+    return sum;
+}
+
+template <class T>
+typename TileShaderOf<T>::vec3 TileShaderOf<T>::albedo(const SurfaceMaterial& material, const Weights& w,
+                                                       const Group& group) {
     const vec3 even = constant(material.diffuse);
     if (!material.checker) return even;
-    const auto uv = [](const PlacedMesh& m, uint32_t v) {
-        return m.mesh->uv_m.empty() ? glm::vec2(0) : m.mesh->uv_m[v];
-    };
-    const T u = attribute(w, [&](const PlacedMesh& m, uint32_t i) { return uv(m, i).x; });
-    const T v = attribute(w, [&](const PlacedMesh& m, uint32_t i) { return uv(m, i).y; });
+    const auto [u, v] = triangles_.surfaceCoordinates(w, group.lanes);
     const auto isOdd = kernels_.isOddSquare(u, v, T(1.0 / material.checkerSize_m));
     const vec3 odd = constant(material.diffuse2);
     return vec3(K::select(isOdd, odd.x, even.x), K::select(isOdd, odd.y, even.y),
@@ -311,64 +285,64 @@ typename TileShaderOf<T>::vec3 TileShaderOf<T>::mirrorRadiance(const Bucket& buc
                          kernels_.sampleCubeRgb(texture, direction, sampling));
 }
 
-template <class T>
-double& TileShaderOf<T>::value(ShadeOutput output, uint32_t fragment, int channel) {
-    return values_[static_cast<size_t>(output)][3 * size_t{fragment} + static_cast<size_t>(channel)];
-}
-
 // Keeps the group's values if the output is wanted.
 template <class T>
-void TileShaderOf<T>::put(ShadeOutput output, Group group, vec3 v) {
+void TileShaderOf<T>::put(ShadeOutput output, const Group& group, vec3 v) {
     if (!job_.request[output]) return;
-    for (size_t i = 0; i < group.size(); i++) {
-        value(output, group[i], 0) = numberLane(v.x, static_cast<int>(i));
-        value(output, group[i], 1) = numberLane(v.y, static_cast<int>(i));
-        value(output, group[i], 2) = numberLane(v.z, static_cast<int>(i));
+    const auto active = static_cast<int>(group.fragments.size());
+    for (int c = 0; c < 3; c++) {
+        Stored* to = values(output, c);
+        if (group.isRun()) {
+            TexelFetch<T>::store(v[c], to + group.fragments.front(), active);
+            continue;
+        }
+        std::array<Stored, N> lanes;
+        TexelFetch<T>::store(v[c], lanes.data(), N);
+        for (size_t i = 0; i < group.fragments.size(); i++) to[group.fragments[i]] = lanes[i];
     }
 }
 
 // Means over the samples of each pixel, a row of the rectangle at a time.
 template <class T>
-void TileShaderOf<T>::resolve(const PixelRectangle& rectangle, ShadedImages& images) {
+void TileShaderOf<T>::resolve(ShadeOutput output, const PixelRectangle& rectangle, Image<float>& image) {
     const auto samples = static_cast<size_t>(job_.target->format.samples);
     const T reciprocal(1.0 / static_cast<double>(samples));
     const auto width = static_cast<size_t>(rectangle.width());
-    for (size_t o = 0; o <= static_cast<size_t>(ShadeOutput::beauty); o++) {
-        if (!job_.request.wanted[o]) continue;
-        const auto output = static_cast<ShadeOutput>(o);
-        for (int row = 0; row < rectangle.height(); row++) {
-            forEachLaneGroup<N>(width, [&](size_t first, int active) {
-                const size_t firstPixel = static_cast<size_t>(row) * width + first;
-                for (int c = 0; c < 3; c++) {
-                    const auto sample = [&](size_t s) {
-                        return generateNumber<T>([&](int i) {
-                            const size_t pixel = firstPixel + static_cast<size_t>(std::min(i, active - 1));
-                            return value(output, tile_.fragmentOf[pixel * samples + s], c);
-                        });
-                    };
-                    T sum = sample(0);
-                    for (size_t s = 1; s < samples; s++) sum = kernels_.resolveAdd(sum, sample(s));
-                    if (samples > 1) sum = kernels_.resolveMean(sum, reciprocal);
-                    float* to =
-                        &images[output].at(rectangle.x0 + static_cast<int>(first), rectangle.y0 + row, c);
-                    for (int i = 0; i < active; i++) to[i] = static_cast<float>(numberLane(sum, i));
-                }
-            });
-        }
+    for (int row = 0; row < rectangle.height(); row++) {
+        forEachLaneGroup<N>(width, [&](size_t first, int active) {
+            const size_t firstPixel = static_cast<size_t>(row) * width + first;
+            for (int c = 0; c < 3; c++) {
+                const Stored* from = values(output, c);
+                const auto sample = [&](size_t s) {
+                    return generateNumber<T>([&](int i) {
+                        const size_t pixel = firstPixel + static_cast<size_t>(std::min(i, active - 1));
+                        return static_cast<double>(from[tile_.fragmentOf(pixel, s, samples)]);
+                    });
+                };
+                T sum = sample(0);
+                for (size_t s = 1; s < samples; s++) sum = kernels_.resolveAdd(sum, sample(s));
+                sum = kernels_.resolveMean(sum, reciprocal);
+                TexelFetch<T>::store(
+                    sum, &image.at(rectangle.x0 + static_cast<int>(first), rectangle.y0 + row, c), active);
+            }
+        });
     }
 }
 
 template <class T>
-void TileShaderOf<T>::copyFirstSample(ShadeOutput output, int channels, const PixelRectangle& rectangle,
-                                      ShadedImages& images) {
-    if (!job_.request[output]) return;
+void TileShaderOf<T>::copyFirstSample(ShadeOutput output, const PixelRectangle& rectangle,
+                                      Image<float>& image) {
     const auto samples = static_cast<size_t>(job_.target->format.samples);
-    size_t pixel = 0;
-    for (int y = rectangle.y0; y < rectangle.y1; y++)
-        for (int x = rectangle.x0; x < rectangle.x1; x++, pixel++)
-            for (int c = 0; c < channels; c++)
-                images[output].at(x, y, c) =
-                    static_cast<float>(value(output, tile_.fragmentOf[pixel * samples], c));
+    const auto width = static_cast<size_t>(rectangle.width());
+    for (int c = 0; c < image.channels(); c++) {
+        const Stored* from = values(output, c);
+        for (int row = 0; row < rectangle.height(); row++) {
+            float* to = &image.at(rectangle.x0, rectangle.y0 + row, c);
+            const size_t firstPixel = static_cast<size_t>(row) * width;
+            for (size_t i = 0; i < width; i++)
+                to[i] = static_cast<float>(from[tile_.fragmentOf(firstPixel + i, 0, samples)]);
+        }
+    }
 }
 
 template <class T>

@@ -101,18 +101,12 @@ struct WideTexts {
 
 // f(a, b) per lane, through one register of doubles at a time; f takes Lanes<double, M> and returns them.
 template <class S, int N, class F>
-Lanes<S, N> byRegisters(Lanes<S, N> a, Lanes<S, N> b, F&& f) {
-    constexpr int kPart = std::min(N, kNativeLanes<double>);
-    using Part = Lanes<S, kPart>;
-    S values[3][N];
-    a.store(values[0]);
-    b.store(values[1]);
-    for (int i = 0; i < N; i += kPart) {
-        const auto aPart = convertLanes<double>(Part::load(values[0] + i));
-        const auto bPart = convertLanes<double>(Part::load(values[1] + i));
-        convertLanes<S>(f(aPart, bPart)).store(values[2] + i);
-    }
-    return Lanes<S, N>::load(values[2]);
+[[gnu::always_inline]] inline Lanes<S, N> byRegisters(Lanes<S, N> a, Lanes<S, N> b, F&& f) {
+    if constexpr (N <= kNativeLanes<double>)
+        return convertLanes<S>(f(convertLanes<double>(a), convertLanes<double>(b)));
+    else
+        return joinLanes(byRegisters(lowerLanes(a), lowerLanes(b), f),
+                         byRegisters(upperLanes(a), upperLanes(b), f));
 }
 
 // atan2Of and powOf in double for a result format with the given smallest exponent; `extended` as in the
@@ -129,10 +123,25 @@ Lanes<S, N> atan2InDouble(Lanes<S, N> y, Lanes<S, N> x, double lowest, bool exte
         return WideTexts<decltype(a)>{}.atan2Wide(a, b, decltype(a)(lowest), extended);
     });
 }
+// For lanes of which one is special. Rarely called: kept out of the code of loops.
 template <class S, int N>
-Lanes<S, N> powInDouble(Lanes<S, N> x, Lanes<S, N> y, double lowest, bool extended) {
+[[gnu::noinline]] Lanes<S, N> anyPowInDouble(Lanes<S, N> x, Lanes<S, N> y, double lowest, bool extended) {
     return byRegisters(x, y, [=](auto a, auto b) {
         return WideTexts<decltype(a)>{}.powWide(a, b, decltype(a)(lowest), extended);
+    });
+}
+// True if powOfFraction (numeric/kernels/pow.glsl) may replace powWide in every lane.
+template <class S, int N>
+bool areFractionPowers(Lanes<S, N> x, Lanes<S, N> y, double lowest) {
+    using L = Lanes<S, N>;
+    const double least = std::max(WideTexts<double>::powerOfTwo(lowest), 0x1p-100);
+    return !anyOf(!(x >= L(0.0) && x <= L(1.0) && y >= L(least) && y <= L(0x1p70)));
+}
+template <class S, int N>
+Lanes<S, N> powInDouble(Lanes<S, N> x, Lanes<S, N> y, double lowest, bool extended) {
+    if (!areFractionPowers(x, y, lowest)) return anyPowInDouble(x, y, lowest, extended);
+    return byRegisters(x, y, [=](auto a, auto b) {
+        return WideTexts<decltype(a)>{}.powOfFraction(a, b, decltype(a)(lowest), extended);
     });
 }
 

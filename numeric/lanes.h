@@ -8,6 +8,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -188,19 +189,45 @@ Lanes<S, 2 * N> joinLanes(Lanes<S, N> a, Lanes<S, N> b) {
     }
     (std::make_integer_sequence<int, 2 * N>{});
 }
-template <class S, int N>
-Lanes<S, N / 2> lowerHalf(Lanes<S, N> a) {
+// The lanes first, first + 1 ... of a, as many as half of it has.
+template <int first, class S, int N>
+Lanes<S, N / 2> halfOfLanes(Lanes<S, N> a) {
     return [&]<int... I>(std::integer_sequence<int, I...>) {
-        return Lanes<S, N / 2>(__builtin_shufflevector(a.v, a.v, I...));
+        return Lanes<S, N / 2>(__builtin_shufflevector(a.v, a.v, (first + I)...));
     }
     (std::make_integer_sequence<int, N / 2>{});
 }
 template <class S, int N>
-Lanes<S, N / 2> upperHalf(Lanes<S, N> a) {
+Lanes<S, N / 2> lowerLanes(Lanes<S, N> a) {
+    return halfOfLanes<0>(a);
+}
+template <class S, int N>
+Lanes<S, N / 2> upperLanes(Lanes<S, N> a) {
+    return halfOfLanes<N / 2>(a);
+}
+// Lane first of a, that of b, the next of a and so on.
+template <int first, class S, int N>
+Lanes<S, N> interleavedLanes(Lanes<S, N> a, Lanes<S, N> b) {
     return [&]<int... I>(std::integer_sequence<int, I...>) {
-        return Lanes<S, N / 2>(__builtin_shufflevector(a.v, a.v, (N / 2 + I)...));
+        return Lanes<S, N>(__builtin_shufflevector(a.v, b.v, (first + I / 2 + I % 2 * N)...));
     }
-    (std::make_integer_sequence<int, N / 2>{});
+    (std::make_integer_sequence<int, N>{});
+}
+// Lane i of row j changes places with lane j of row i.
+template <class S, int N>
+[[gnu::always_inline]] inline void transposeLanes(std::array<Lanes<S, N>, static_cast<size_t>(N)>& rows) {
+    // Each stage interleaves the lanes of the rows of the first half with those of the second.
+    constexpr auto kHalf = static_cast<size_t>(N / 2);
+#pragma GCC unroll 4
+    for (int stage = 1; stage < N; stage *= 2) {
+        std::array<Lanes<S, N>, static_cast<size_t>(N)> next;
+#pragma GCC unroll 8
+        for (size_t i = 0; i < kHalf; i++) {
+            next[2 * i] = interleavedLanes<0>(rows[i], rows[i + kHalf]);
+            next[2 * i + 1] = interleavedLanes<N / 2>(rows[i], rows[i + kHalf]);
+        }
+        rows = next;
+    }
 }
 // The same mask for lanes of another scalar type.
 template <class To, class S, int N>

@@ -109,6 +109,8 @@ struct TexelFetch {
     static T contiguous(const Stored* from) {
         if constexpr (std::is_same_v<T, Lanes<Stored, kCount>>)
             return T::load(from);
+        else if constexpr (std::is_constructible_v<T, Lanes<Stored, kCount>>)
+            return T(Lanes<Stored, kCount>::load(from));
         else
             return generateNumber<T>([&](int i) { return static_cast<double>(from[i]); });
     }
@@ -117,6 +119,8 @@ struct TexelFetch {
     static void store(const T& value, Stored* to, int active) {
         if constexpr (std::is_same_v<T, Lanes<Stored, kCount>>)
             storeActive(value, to, active);
+        else if constexpr (requires { storeActive(value.v, to, active); })
+            storeActive(value.v, to, active);
         else
             for (int i = 0; i < active; i++) to[i] = static_cast<Stored>(numberLane(value, i));
     }

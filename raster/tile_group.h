@@ -66,8 +66,8 @@ template <int N>
     if constexpr (N == kGroupWidth) {
         group.store(to);
     } else {
-        lowerHalf(group).store(to);
-        upperHalf(group).store(to + stride);
+        lowerLanes(group).store(to);
+        upperLanes(group).store(to + stride);
     }
 }
 

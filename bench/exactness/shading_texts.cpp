@@ -28,7 +28,7 @@ vec3 loadPixels(const float* const (&from)[3], size_t first) {
 }
 vec3 sameInEveryLane(double x, double y, double z) { return {Number(x), Number(y), Number(z)}; }
 
-void shade(const ShadingInput& in) {
+[[gnu::flatten]] void shade(const ShadingInput& in) {
     const vec3 diffuse = sameInEveryLane(in.diffuse[0], in.diffuse[1], in.diffuse[2]);
     const vec3 specular = sameInEveryLane(in.specular[0], in.specular[1], in.specular[2]);
     const Number exponent(in.exponent), scale(in.scale);

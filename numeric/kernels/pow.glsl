@@ -144,6 +144,29 @@ ScaledNumber scaledPowerExtended(wide x, wide y) {
     return result;
 }
 
+// x^y for a positive, finite, normal x and |y| <= 2^70.
+ScaledNumber scaledPowerOf(wide x, wide y, bool extended) {
+    ScaledNumber scaled;
+    if (extended) {
+        scaled = scaledPowerExtended(x, y);
+    } else {
+        scaled = scaledPower(x, y);
+    }
+    return scaled;
+}
+
+// The bits of powWide for 0 <= x <= 1 and 2^lowest, 2^-100 <= y <= 2^70: there nothing is invalid, infinite or
+// beyond the range.
+wide powOfFraction(wide x, wide y, wide lowest, bool extended) {
+    wide zero = wide(0.0);
+    wide one = wide(1.0);
+    boolean isZero = x < powerOfTwo(lowest);
+    ScaledNumber scaled = scaledPowerOf(select(isZero, one, x), y, extended);
+    boolean tooLow = scaled.exponent < lowest || (scaled.exponent == lowest && scaled.significand < one);
+    wide exponent = select(tooLow, zero, scaled.exponent);
+    return select(isZero || tooLow, zero, scaled.significand * powerOfTwo(exponent));
+}
+
 // x^y for a result format whose smallest normal number is 2^lowest: smaller arguments and results are 0.
 // `extended` is false where the result is rounded to float.
 wide powWide(wide x, wide y, wide lowest, bool extended) {
@@ -163,13 +186,7 @@ wide powWide(wide x, wide y, wide lowest, bool extended) {
     wide negligible = powerOfTwo(wide(-100.0));
     wide power = select(y > decisive, decisive, select(y < -decisive, -decisive, y));
     power = select(power < negligible && power > -negligible, zero, power);
-    ScaledNumber scaled;
-    if (extended) {
-        scaled = scaledPowerExtended(base, power);
-    } else {
-        scaled = scaledPower(base, power);
-    }
-    wide result = joinNumber(scaled, lowest);
+    wide result = joinNumber(scaledPowerOf(base, power, extended), lowest);
 
     // Powers of zero and of infinity.
     wide ofZero = select(rises, zero, select(falls, infinity, one));

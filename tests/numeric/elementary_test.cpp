@@ -458,6 +458,30 @@ TEST_CASE_TEMPLATE("LanesGiveTheBitsOfTheScalar", L, Lanes<float, 1>, Lanes<floa
     CHECK(laneHash<L>() == scalarHash<typename L::Scalar>());
 }
 
+// Lanes take a shorter text where every lane is a fraction with a plain exponent: here all are, on and around
+// the limits.
+TEST_CASE_TEMPLATE("LanesOfFractionsGiveTheBitsOfTheScalarPower", L, Lanes<float, 4>, Lanes<float, 16>,
+                   Lanes<double, 2>, Lanes<double, 8>) {
+    using S = typename L::Scalar;
+    constexpr S kSmallest = std::numeric_limits<S>::min(), kHalfStep = std::numeric_limits<S>::epsilon() / 2;
+    const S exponents[] = {S(0x1p70), S(1000), S(150),   S(126),     S(32),      S(1),
+                           S(0.5),    S(1e-3), S(1e-20), S(0x1p-99), S(0x1p-100)};
+    const S edges[] = {S(0), -S(0), kSmallest / 2, kSmallest, 2 * kSmallest, S(0.5), S(1) - kHalfStep, S(1)};
+    RandomNumbers random(3);
+    for (const S exponent : exponents)
+        for (int group = 0; group < 256; group++) {
+            const L x = L::generate([&](int i) {
+                const S fraction = static_cast<S>(random.uniform(0.0, 1.0));
+                return group % 2 == 0 ? fraction : edges[(group / 2 + i) % std::ssize(edges)];
+            });
+            const L power = powOf(x, L(static_cast<double>(exponent)));
+            for (int i = 0; i < L::size; i++) {
+                const S scalar = powOf(x[i], exponent), lane = power[i];
+                CHECK(std::memcmp(&scalar, &lane, sizeof(S)) == 0);
+            }
+        }
+}
+
 TEST_CASE_TEMPLATE("FlushingSubnormalsChangesNoBit", S, float, double) {
     const uint64_t kept = scalarHash<S>();
     const uint64_t keptInLanes = laneHash<Lanes<S, 4>>();

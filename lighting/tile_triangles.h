@@ -1,0 +1,253 @@
+// The visible triangles of a tile, set up once each for interpolation, and what a group of fragments reads
+// from them (rule 5).
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "lighting/geometry.h"
+#include "lighting/shading_kernels.h"
+#include "numeric/number_lanes.h"
+#include "raster/fragments.h"
+#include "raster/setup.h"
+
+namespace etalon {
+
+// T: number type of the fragment arithmetic. A triangle is a record of words as T is stored; lanes get theirs
+// by transposing the records of their triangles.
+template <class T>
+class TileTriangles {
+  public:
+    using K = ShadingKernels<T>;
+    using vec3 = typename K::vec3;
+    static constexpr int N = NumberTraits<T>::lanes;
+
+    // The triangles of a group's fragments, and where these are shaded.
+    struct Group {
+        std::array<uint32_t, N> triangle;  // those behind a short group repeat the last one
+        std::array<int32_t, N> x_subpx, y_subpx;
+        bool isOneTriangle;
+    };
+    // What each attribute of a group is interpolated with.
+    struct Weights {
+        vec3 b;
+        T facing;                    // 1 or -1
+        std::array<vec3, 3> normal;  // x, y and z of the three corners
+    };
+
+    // Forgets all; triangles 0 .. count - 1 may be set.
+    void reset(size_t count);
+    void set(size_t number, const RenderTarget& target, uint32_t id, const PlacedMesh& placed);
+
+    Weights weights(const Group& group) const;
+    vec3 normal(const Weights& w) const;  // interpolated, of any length
+    vec3 position(const Weights& w, const Group& group) const;
+    std::array<T, 2> surfaceCoordinates(const Weights& w, const Group& group) const;
+
+  private:
+    using Stored = TexelStorage<T>;
+    using Row = Lanes<Stored, N>;
+    using Whole = Lanes<uint32_t, N>;
+
+    // Words of a record: attributes have three, for the corners, per component.
+    static constexpr size_t kAreaScale = 0, kQ = 1, kFacing = 4, kNormal = 5, kPosition = 14, kSurface = 23,
+                            kUsedWords = 29, kWords = 32;
+    // Edge values inside a triangle whose area fits 31 bits do as well: computed modulo 2^32, from the steps
+    // and the constant of edges 1 and 2; the value of edge 0 is what is left of the area.
+    static constexpr size_t kEdge1 = 0, kEdge2 = 3, kArea = 6, kLarge = 7, kEdgeWords = 8;
+    using LargeEdges = std::array<EdgeFunction, 3>;
+
+    void setEdges(size_t number, const TriangleRecord& record);
+    double edgeValue(const Group& group, size_t lane, size_t edge) const;
+    vec3 edgeValues(const Group& group, const Row& areaScale) const;
+    template <size_t kCount, class S>
+    static std::array<Lanes<S, N>, kCount> columns(const S* first, size_t stride, const Group& group);
+    static T number(const Row& row);
+    T interpolated(const Weights& w, const vec3& corners) const {
+        K kernels;
+        return kernels.interpolateAttribute(w.b, corners);
+    }
+    static vec3 three(const Row* rows) { return {number(rows[0]), number(rows[1]), number(rows[2])}; }
+
+    std::vector<Stored> words_;
+    std::vector<uint32_t> edges_;
+    std::vector<LargeEdges> large_;  // of the triangles with a larger area; kLarge is one more than the index
+};
+
+template <class T>
+void TileTriangles<T>::reset(size_t count) {
+    // Blocks of N words are read, also from the last record's end.
+    words_.resize(std::max(words_.size(), count * kWords + N));
+    edges_.resize(std::max(edges_.size(), count * kEdgeWords + N));
+    large_.clear();
+}
+
+template <class T>
+void TileTriangles<T>::setEdges(size_t number, const TriangleRecord& record) {
+    const auto edges = edgeFunctions(record);
+    uint32_t* to = &edges_[number * kEdgeWords];
+    for (size_t i = 0; i < 2; i++) {
+        const EdgeFunction& edge = edges[i + 1];
+        to[3 * i] = static_cast<uint32_t>(edge.stepX);
+        to[3 * i + 1] = static_cast<uint32_t>(edge.stepY);
+        to[3 * i + 2] = static_cast<uint32_t>(edge.constant);
+    }
+    to[kArea] = static_cast<uint32_t>(record.area);
+    to[kLarge] = 0;
+    if (record.area > std::numeric_limits<int32_t>::max()) {
+        large_.push_back(edges);
+        to[kLarge] = static_cast<uint32_t>(large_.size());
+    }
+}
+
+// Attributes below 2^-60 in magnitude are 0.
+template <class T>
+void TileTriangles<T>::set(size_t number, const RenderTarget& target, uint32_t id, const PlacedMesh& placed) {
+    constexpr double kSmallestAttribute = 0x1p-60;
+    const TriangleRecord record = target.triangle(id);
+    setEdges(number, record);
+    const WeightScale scale = weightScale(record);
+    std::array<double, kWords> words{};
+    for (size_t k = 0; k < 3; k++) words[kQ + k] = scale.q[k];
+    words[kFacing] = record.front ? 1.0 : -1.0;
+
+    // The components of the vertices in the order of the source; then in that of the record.
+    const uint32_t* index = &placed.mesh->indices[3 * size_t{record.triangle}];
+    const auto setAttribute = [&](size_t first, double v0, double v1, double v2) {
+        const std::array<double, 3> source = {v0, v1, v2};
+        for (size_t k = 0; k < 3; k++) {
+            double value = source[record.corner[k]];
+            if (record.clipped) {
+                const auto& beta = target.barycentric(id, k);
+                value = beta[0] * source[0] + (beta[1] * source[1] + beta[2] * source[2]);
+            }
+            words[first + k] = std::fabs(value) < kSmallestAttribute ? 0.0 : value;
+        }
+    };
+    const auto setVectors = [&](size_t first, const auto& values, int components) {
+        const auto &a = values[index[0]], &b = values[index[1]], &c = values[index[2]];
+        for (int i = 0; i < components; i++)
+            setAttribute(first + 3 * static_cast<size_t>(i), a[i], b[i], c[i]);
+    };
+    setVectors(kNormal, placed.normals, 3);
+    setVectors(kPosition, placed.positions, 3);
+    if (!placed.mesh->uv_m.empty()) setVectors(kSurface, placed.mesh->uv_m, 2);
+
+    // Each rounded once; the power of two is exact.
+    Stored* to = &words_[number * kWords];
+    if constexpr (std::is_same_v<Stored, float>)
+        for (size_t i = 0; i < kWords; i++) to[i] = static_cast<float>(words[i]);
+    else
+        for (size_t i = 0; i < kWords; i += N)
+            TexelFetch<T>::store(TexelFetch<T>::contiguous(&words[i]), to + i, N);
+    to[kAreaScale] = static_cast<Stored>(scale.areaScale);
+}
+
+// A stored row as numbers of T.
+template <class T>
+T TileTriangles<T>::number(const Row& row) {
+    if constexpr (std::is_same_v<T, Row>)
+        return row;
+    else if constexpr (requires { T::ofRepresentable(row); })
+        return T::ofRepresentable(row);
+    else
+        return T(row[0]);
+}
+
+// Words 0 .. kCount - 1 at `first` of the record of each lane's triangle.
+template <class T>
+template <size_t kCount, class S>
+std::array<Lanes<S, TileTriangles<T>::N>, kCount> TileTriangles<T>::columns(const S* first, size_t stride,
+                                                                            const Group& group) {
+    using L = Lanes<S, N>;
+    std::array<L, kCount> result;
+    if (group.isOneTriangle) {
+        const S* words = first + stride * group.triangle[0];
+        for (size_t i = 0; i < kCount; i++) result[i] = L(words[i] - typename L::Vector{});
+        return result;
+    }
+    constexpr size_t kBlock = static_cast<size_t>(N);
+    for (size_t block = 0; block < kCount; block += kBlock) {
+        std::array<L, kBlock> rows;
+        for (size_t i = 0; i < kBlock; i++) rows[i] = L::load(first + stride * group.triangle[i] + block);
+        transposeLanes(rows);
+        for (size_t i = 0; i < std::min(kBlock, kCount - block); i++) result[block + i] = rows[i];
+    }
+    return result;
+}
+
+// One edge value of a lane, exactly.
+template <class T>
+double TileTriangles<T>::edgeValue(const Group& group, size_t lane, size_t edge) const {
+    const uint32_t* words = &edges_[group.triangle[lane] * kEdgeWords];
+    const int32_t x = group.x_subpx[lane], y = group.y_subpx[lane];
+    if (words[kLarge] != 0) return static_cast<double>(large_[words[kLarge] - 1][edge].at(x, y));
+    const auto value = [&](const uint32_t* e) {
+        return e[0] * static_cast<uint32_t>(x) + e[1] * static_cast<uint32_t>(y) + e[2];
+    };
+    const uint32_t e_1 = value(words + kEdge1), e_2 = value(words + kEdge2);
+    return edge == 0 ? words[kArea] - (e_1 + e_2) : edge == 1 ? e_1 : e_2;
+}
+
+// Edge values times 2^m, each rounded once.
+template <class T>
+typename TileTriangles<T>::vec3 TileTriangles<T>::edgeValues(const Group& group, const Row& areaScale) const {
+    if constexpr (N > 1) {
+        const auto words = columns<kEdgeWords>(edges_.data(), kEdgeWords, group);
+        if (!anyOf(words[kLarge] != Whole(0.0))) {
+            using Signed = Lanes<int32_t, N>;
+            const auto positions = [](const std::array<int32_t, N>& a) {
+                return Whole(__builtin_bit_cast(typename Whole::Vector, Signed::load(a.data()).v));
+            };
+            const Whole x = positions(group.x_subpx), y = positions(group.y_subpx);
+            const auto value = [&](size_t e) { return words[e] * x + (words[e + 1] * y + words[e + 2]); };
+            const Whole e_1 = value(kEdge1), e_2 = value(kEdge2);
+            const auto scaled = [&](const Whole& e) {
+                const Signed inside(__builtin_bit_cast(typename Signed::Vector, e.v));
+                return T(convertLanes<Stored>(inside) * areaScale);
+            };
+            return {scaled(words[kArea] - (e_1 + e_2)), scaled(e_1), scaled(e_2)};
+        }
+    }
+    const auto scaled = [&](size_t edge) {
+        return generateNumber<T>([&](int i) {
+            return edgeValue(group, static_cast<size_t>(i), edge) * static_cast<double>(areaScale[i]);
+        });
+    };
+    return {scaled(0), scaled(1), scaled(2)};
+}
+
+template <class T>
+typename TileTriangles<T>::Weights TileTriangles<T>::weights(const Group& group) const {
+    const auto words = columns<kPosition>(words_.data(), kWords, group);
+    K kernels;
+    Weights w;
+    w.b = kernels.perspectiveWeights(edgeValues(group, words[kAreaScale]), three(&words[kQ]));
+    w.facing = number(words[kFacing]);
+    for (size_t i = 0; i < 3; i++) w.normal[i] = three(&words[kNormal + 3 * i]);
+    return w;
+}
+
+template <class T>
+typename TileTriangles<T>::vec3 TileTriangles<T>::normal(const Weights& w) const {
+    return {interpolated(w, w.normal[0]), interpolated(w, w.normal[1]), interpolated(w, w.normal[2])};
+}
+
+template <class T>
+typename TileTriangles<T>::vec3 TileTriangles<T>::position(const Weights& w, const Group& group) const {
+    const auto words = columns<kSurface - kPosition>(&words_[kPosition], kWords, group);
+    return {interpolated(w, three(&words[0])), interpolated(w, three(&words[3])),
+            interpolated(w, three(&words[6]))};
+}
+
+template <class T>
+std::array<T, 2> TileTriangles<T>::surfaceCoordinates(const Weights& w, const Group& group) const {
+    const auto words = columns<kUsedWords - kSurface>(&words_[kSurface], kWords, group);
+    return {interpolated(w, three(&words[0])), interpolated(w, three(&words[3]))};
+}
+
+}  // namespace etalon
