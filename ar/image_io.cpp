@@ -219,11 +219,11 @@ Image<float> readRgb(const std::filesystem::path& path) {
 std::vector<std::byte> encodePng(const Image<uint8_t>& image) {
     ETALON_CHECK(image.channels() == 3 && !image.empty(), "an image of {}x{} with {} channels", image.width(),
                  image.height(), image.channels());
-    std::vector<std::byte> pixels, bytes;
-    pixels.reserve(image.values().size());
+    std::vector<std::byte> pixels(image.values().size()), bytes;
+    std::byte* out = pixels.data();
     for (int y = 0; y < image.height(); ++y)
         for (int x = 0; x < image.width(); ++x)
-            for (int c = 0; c < 3; ++c) pixels.push_back(std::byte{image.at(x, y, c)});
+            for (int c = 0; c < 3; ++c) *out++ = std::byte{image.at(x, y, c)};
     const std::string defect = imageModule().encodePng(image.width(), image.height(), pixels, bytes);
     ETALON_CHECK(defect.empty(), "encoding {}x{} as PNG: {}", image.width(), image.height(), defect);
     return bytes;
