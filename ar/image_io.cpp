@@ -1,15 +1,10 @@
 #include "ar/image_io.h"
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
-
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cstring>
 #include <fstream>
-#include <functional>
-#include <memory>
 #include <new>
 #include <span>
 #include <string>
@@ -17,21 +12,14 @@
 #include <system_error>
 
 #include "ar/atomic_file.h"
+#include "ar/image_module.h"
 
 namespace etalon {
 namespace {
 
-using OIIO::TypeDesc;
-
-// Rows handed to the encoder at a time: one zip block of an EXR file is 16 rows.
-constexpr int kRowsPerWrite = 64;
-
 [[noreturn]] void fail(const std::filesystem::path& path, const std::string& reason) {
     throw InputError(fmt::format("{}: {}", path.string(), reason));
 }
-
-// The first line of a library's message; some have several.
-std::string firstLine(const std::string& text) { return text.substr(0, text.find('\n')); }
 
 // The checksum of PNG chunks, byte by byte with a table [PNG, Annex D].
 class Crc32 {
@@ -98,19 +86,20 @@ float halfToFloat(uint16_t half) {
     return sign != 0 ? -magnitude : magnitude;
 }
 
-float sampleToFloat(const std::byte* bytes, TypeDesc::BASETYPE type) {
-    if (type == TypeDesc::UINT8) return static_cast<float>(std::to_integer<int>(*bytes)) / 255.0f;
-    if (type == TypeDesc::FLOAT) {
+float sampleToFloat(const std::byte* bytes, SampleType type) {
+    if (type == SampleType::uint8) return static_cast<float>(std::to_integer<int>(*bytes)) / 255.0f;
+    if (type == SampleType::float32) {
         float value;
         std::memcpy(&value, bytes, sizeof value);
         return value;
     }
     uint16_t code;
     std::memcpy(&code, bytes, sizeof code);
-    return type == TypeDesc::HALF ? halfToFloat(code) : static_cast<float>(code) / 65535.0f;
+    return type == SampleType::float16 ? halfToFloat(code) : static_cast<float>(code) / 65535.0f;
 }
 
-std::unique_ptr<OIIO::ImageInput> openInput(const std::filesystem::path& path) {
+// Everything that can be told before the library opens the file.
+void checkFile(const std::filesystem::path& path) {
     std::error_code error;
     const std::filesystem::file_status status = std::filesystem::status(path, error);
     if (!std::filesystem::exists(status)) fail(path, "no such file");
@@ -119,40 +108,29 @@ std::unique_ptr<OIIO::ImageInput> openInput(const std::filesystem::path& path) {
     if (!std::ifstream(path, std::ios::binary)) fail(path, "cannot be opened for reading");
     if (std::filesystem::file_size(path, error) == 0) fail(path, "the file is empty");
     if (isDamagedPng(path)) fail(path, "the file is truncated or damaged");
-    OIIO::ImageSpec hints;
-    hints.attribute("oiio:UnassociatedAlpha", 1);
-    auto input = OIIO::ImageInput::open(path.string(), &hints);
-    if (!input) fail(path, "not a readable image: " + firstLine(OIIO::geterror()));
-    return input;
 }
 
 // Refuses, before any pixel is read, what a Frame cannot hold.
-void checkSpec(OIIO::ImageInput& input, const std::filesystem::path& path) {
-    const OIIO::ImageSpec& spec = input.spec();
-    if (spec.width <= 0 || spec.height <= 0 || spec.nchannels <= 0)
-        fail(path, fmt::format("zero size: {}x{} with {} channels", spec.width, spec.height, spec.nchannels));
-    if (spec.deep || spec.depth > 1) fail(path, "deep and volume images are not supported");
-    const double bytes = 4.0 * spec.width * spec.height * spec.nchannels;
-    if (spec.width > kMaxImageSize || spec.height > kMaxImageSize ||
-        bytes > static_cast<double>(kMaxFrameBytes))
+void checkHeader(const ImageHeader& header, const std::filesystem::path& path) {
+    const int width = header.width, height = header.height;
+    const size_t channels = header.channels.size();
+    if (width <= 0 || height <= 0 || channels == 0)
+        fail(path, fmt::format("zero size: {}x{} with {} channels", width, height, channels));
+    if (header.deep) fail(path, "deep and volume images are not supported");
+    const double bytes = 4.0 * width * height * static_cast<double>(channels);
+    if (width > kMaxImageSize || height > kMaxImageSize || bytes > static_cast<double>(kMaxFrameBytes))
         fail(path,
              fmt::format("{}x{} with {} channels would need {:.1f} GiB of memory; the limit is {} GiB and "
                          "{} pixels a side",
-                         spec.width, spec.height, spec.nchannels, bytes * 0x1p-30, kMaxFrameBytes >> 30,
-                         kMaxImageSize));
-    if (const int orientation = spec.get_int_attribute("Orientation", 1); orientation != 1)
-        fail(path, fmt::format("orientation {} is not supported; the top row must come first", orientation));
-    for (int c = 0; c < spec.nchannels; ++c) {
-        const TypeDesc type = spec.channelformat(c);
-        if (type != TypeDesc::UINT8 && type != TypeDesc::UINT16 && type != TypeDesc::UINT32 &&
-            type != TypeDesc::HALF && type != TypeDesc::FLOAT)
+                         width, height, channels, bytes * 0x1p-30, kMaxFrameBytes >> 30, kMaxImageSize));
+    if (header.orientation != 1)
+        fail(path,
+             fmt::format("orientation {} is not supported; the top row must come first", header.orientation));
+    for (const StoredChannel& channel : header.channels)
+        if (channel.type == SampleType::other)
             fail(path, fmt::format(
                            "channel {} holds {} samples; only float, half, uint8, uint16 and uint32 are read",
-                           spec.channel_name(c), type.c_str()));
-    }
-    if (input.seek_subimage(1, 0)) fail(path, "holds several images; only files of one image are read");
-    input.geterror();
-    if (!input.seek_subimage(0, 0)) fail(path, "not a readable image: " + firstLine(input.geterror()));
+                           channel.name, channel.typeName));
 }
 
 // What read() returns; InputError when the memory for it cannot be had.
@@ -167,15 +145,14 @@ auto withinMemory(const std::filesystem::path& path, Read read) {
 
 // One plane out of interleaved pixels of pixelBytes each.
 template <class T>
-Image<T> unpackPlane(const OIIO::ImageSpec& spec, const std::byte* samples, size_t pixelBytes,
-                     TypeDesc::BASETYPE type) {
-    Image<T> image(spec.width, spec.height);
+Image<T> unpackPlane(const StoredImage& stored, const std::byte* samples, SampleType type) {
+    Image<T> image(stored.header.width, stored.header.height);
     for (T& value : image.values()) {
         if constexpr (std::is_same_v<T, float>)
             value = sampleToFloat(samples, type);
         else
             std::memcpy(&value, samples, sizeof value);
-        samples += pixelBytes;
+        samples += stored.pixelBytes;
     }
     return image;
 }
@@ -186,60 +163,27 @@ bool describesEncoding(std::string_view name) {
            name.starts_with("oiio:");
 }
 
-std::vector<std::byte> encode(const std::string& formatName, const OIIO::ImageSpec& spec,
-                              const std::function<void(int firstRow, int rows, std::byte*)>& packRows) {
-    // The library's remarks on standard error.
-    OIIO::attribute("debug", 0);
-    OIIO::Filesystem::IOVecOutput memory;
-    auto output = OIIO::ImageOutput::create(formatName, &memory);
-    ETALON_CHECK(output != nullptr, "no encoder for {}: {}", formatName, OIIO::geterror());
-    bool good = output->open(formatName, spec);
-    const size_t rowBytes = static_cast<size_t>(spec.scanline_bytes(true));
-    std::vector<std::byte> rows(rowBytes * static_cast<size_t>(std::min(kRowsPerWrite, spec.height)));
-    for (int y = 0; good && y < spec.height; y += kRowsPerWrite) {
-        const int count = std::min(kRowsPerWrite, spec.height - y);
-        packRows(y, count, rows.data());
-        good = output->write_scanlines(y, y + count, 0, TypeDesc::UNKNOWN, rows.data());
-    }
-    good = good && output->close();
-    ETALON_CHECK(good, "encoding {}x{} as {}: {}", spec.width, spec.height, formatName, output->geterror());
-    const auto bytes = std::as_bytes(std::span(memory.buffer()));
-    return {bytes.begin(), bytes.end()};
-}
-
 Frame readWhole(const std::filesystem::path& path) {
-    const auto input = openInput(path);
-    checkSpec(*input, path);
-    const OIIO::ImageSpec spec = input->spec();
-    const size_t pixelBytes = spec.pixel_bytes(true);
-    std::vector<std::byte> pixels(static_cast<size_t>(spec.width) * static_cast<size_t>(spec.height) *
-                                  pixelBytes);
-    // Some readers report success and leave an error behind (a truncated TIFF), others fail without one
-    // (PFM).
-    const bool complete = input->read_image(0, 0, 0, spec.nchannels, TypeDesc::UNKNOWN, pixels.data());
-    const std::string error = firstLine(input->geterror());
-    if (!complete || !error.empty())
-        fail(path, error.empty() ? "the file is truncated or damaged" : "truncated or damaged: " + error);
+    checkFile(path);
+    StoredImage stored;
+    const std::string defect = imageModule().read(
+        path.string(), [&](const ImageHeader& header) { checkHeader(header, path); }, stored);
+    if (!defect.empty()) fail(path, defect);
 
-    Frame frame{spec.width, spec.height, {}, {}};
-    size_t offset = 0;
-    for (int c = 0; c < spec.nchannels; ++c) {
-        const TypeDesc type = spec.channelformat(c);
-        const std::byte* samples = pixels.data() + offset;
-        const auto base = static_cast<TypeDesc::BASETYPE>(type.basetype);
-        if (frame.find(spec.channel_name(c)) != nullptr || spec.channel_name(c).empty())
-            fail(path, fmt::format("channel name \"{}\" is empty or used twice", spec.channel_name(c)));
-        if (type == TypeDesc::UINT32)
-            frame.channels.push_back(
-                {spec.channel_name(c), unpackPlane<uint32_t>(spec, samples, pixelBytes, base)});
+    const ImageHeader& header = stored.header;
+    Frame frame{header.width, header.height, {}, {}};
+    const std::byte* samples = stored.samples.data();
+    for (const StoredChannel& channel : header.channels) {
+        if (frame.find(channel.name) != nullptr || channel.name.empty())
+            fail(path, fmt::format("channel name \"{}\" is empty or used twice", channel.name));
+        if (channel.type == SampleType::uint32)
+            frame.channels.push_back({channel.name, unpackPlane<uint32_t>(stored, samples, channel.type)});
         else
-            frame.channels.push_back(
-                {spec.channel_name(c), unpackPlane<float>(spec, samples, pixelBytes, base)});
-        offset += type.size();
+            frame.channels.push_back({channel.name, unpackPlane<float>(stored, samples, channel.type)});
+        samples += channel.bytes;
     }
-    for (const OIIO::ParamValue& attribute : spec.extra_attribs)
-        if (attribute.type() == TypeDesc::STRING && !describesEncoding(attribute.name().string()))
-            frame.metadata[attribute.name().string()] = attribute.get_string();
+    for (const auto& [name, text] : header.texts)
+        if (!describesEncoding(name)) frame.metadata[name] = text;
     return frame;
 }
 
@@ -272,45 +216,17 @@ Image<float> readRgb(const std::filesystem::path& path) {
     return withinMemory(path, [&] { return rgbOf(readWhole(path), path); });
 }
 
-std::vector<std::byte> encodeExr(const Frame& frame) {
-    checkFrame(frame);
-    ETALON_CHECK(frame.width > 0 && frame.height > 0, "a frame of {}x{}", frame.width, frame.height);
-    static_assert(sizeof(float) == 4 && sizeof(uint32_t) == 4);
-    OIIO::ImageSpec spec(frame.width, frame.height, static_cast<int>(frame.channels.size()), TypeDesc::FLOAT);
-    spec.channelnames.clear();
-    std::vector<const std::byte*> planes;
-    for (const Channel& channel : frame.channels) {
-        spec.channelnames.push_back(channel.name);
-        spec.channelformats.push_back(
-            std::holds_alternative<Image<float>>(channel.values) ? TypeDesc::FLOAT : TypeDesc::UINT32);
-        std::visit([&](const auto& image) { planes.push_back(std::as_bytes(image.values()).data()); },
-                   channel.values);
-    }
-    for (const auto& [name, text] : frame.metadata) spec.attribute(name, text);
-    spec.attribute("compression", "zip");
-    // The library adds the time of writing unless something of that name is there; a number is not written.
-    if (!frame.metadata.contains("DateTime")) spec.attribute("DateTime", 0);
-    return encode("frame.exr", spec, [&](int firstRow, int rows, std::byte* out) {
-        const size_t first = static_cast<size_t>(firstRow) * static_cast<size_t>(frame.width);
-        const size_t count = static_cast<size_t>(rows) * static_cast<size_t>(frame.width);
-        for (size_t i = first; i < first + count; ++i)
-            for (const std::byte* plane : planes) {
-                std::memcpy(out, plane + 4 * i, 4);
-                out += 4;
-            }
-    });
-}
-
 std::vector<std::byte> encodePng(const Image<uint8_t>& image) {
     ETALON_CHECK(image.channels() == 3 && !image.empty(), "an image of {}x{} with {} channels", image.width(),
                  image.height(), image.channels());
-    OIIO::ImageSpec spec(image.width(), image.height(), 3, TypeDesc::UINT8);
-    spec.attribute("oiio:ColorSpace", "sRGB");
-    return encode("frame.png", spec, [&](int firstRow, int rows, std::byte* out) {
-        for (int y = firstRow; y < firstRow + rows; ++y)
-            for (int x = 0; x < image.width(); ++x)
-                for (int c = 0; c < 3; ++c) *out++ = std::byte{image.at(x, y, c)};
-    });
+    std::vector<std::byte> pixels(image.values().size()), bytes;
+    std::byte* out = pixels.data();
+    for (int y = 0; y < image.height(); ++y)
+        for (int x = 0; x < image.width(); ++x)
+            for (int c = 0; c < 3; ++c) *out++ = std::byte{image.at(x, y, c)};
+    const std::string defect = imageModule().encodePng(image.width(), image.height(), pixels, bytes);
+    ETALON_CHECK(defect.empty(), "encoding {}x{} as PNG: {}", image.width(), image.height(), defect);
+    return bytes;
 }
 
 void writeExr(const Frame& frame, const std::filesystem::path& path) {

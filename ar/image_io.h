@@ -1,4 +1,5 @@
-// Image files, through OpenImageIO.
+// Image files: EXR files are written by OpenEXR (exr_encoder.cpp), everything else is OpenImageIO's
+// (image_module.h).
 #pragma once
 
 #include <cstddef>
@@ -27,8 +28,8 @@ Frame readFrame(const std::filesystem::path& path);
 Image<float> readRgb(const std::filesystem::path& path);
 
 // The bytes of an EXR file: float32 and uint32 channels under their own names, lossless zip compression, the
-// metadata as text attributes. The same frame gives the same bytes. The frame must pass checkFrame and be at
-// least 1x1.
+// metadata as text attributes (but for the names of the format's own, such as "type"). The same frame gives
+// the same bytes. The frame must pass checkFrame and be at least 1x1.
 std::vector<std::byte> encodeExr(const Frame& frame);
 
 // The bytes of an 8-bit PNG of three planes R, G, B, marked as sRGB; at least 1x1.

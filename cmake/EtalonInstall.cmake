@@ -1,5 +1,4 @@
 # Installation: headers under include/etalon, libraries, and the package files for find_package(etalon).
-include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 set(etalon_installed_targets etalon_numeric_flags etalon_numeric etalon_truth etalon_raster etalon_lighting
@@ -8,7 +7,8 @@ set(etalon_installed_folders numeric raster lighting bitcheck)
 if(ETALON_APP)
   list(APPEND etalon_installed_targets etalon_ar)
   list(APPEND etalon_installed_folders ar)
-  install(TARGETS etalon RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  install(TARGETS etalon etalon_image_io RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR}
+          LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/etalon)
 endif()
 install(TARGETS ${etalon_installed_targets} EXPORT etalonTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 foreach(folder ${etalon_installed_folders})

@@ -51,10 +51,19 @@ class CliCase(unittest.TestCase):
         """Options of run_program that run a copy of the program as a user whom permissions stop."""
         if os.geteuid() != 0:
             return {}
-        copy = self.folder / "program"
-        shutil.copy(self.program, copy)
-        os.chmod(copy, 0o755)
-        return {"program": copy, "preexec_fn": lambda: os.setuid(NOBODY)}
+        return {"program": self.installed_copy()[0], "preexec_fn": lambda: os.setuid(NOBODY)}
+
+    def installed_copy(self):
+        """Copies of the program and of its image module, placed to each other as in an installation."""
+        program = pathlib.Path(self.program).resolve()
+        prefix = program.parent.parent
+        copies = []
+        for source in (program, next(prefix.glob("lib*/**/etalon_image_io.so"))):
+            copies.append(self.folder / "prefix" / source.relative_to(prefix))
+            copies[-1].parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(source, copies[-1])
+            os.chmod(copies[-1], 0o755)
+        return copies
 
     def files(self):
         return sorted(str(path.relative_to(self.folder)) for path in self.folder.rglob("*") if path.is_file())

@@ -174,6 +174,36 @@ class Render(CliCase):
         self.assertEqual(result.returncode, 0)
         self.assertIn("flat.obj", result.stderr)
 
+    def test_the_image_module_is_loaded_only_for_images(self):
+        def loaded(*arguments):
+            # The dynamic loader says on standard error which files it opens.
+            result = self.run_program(*arguments, env={**os.environ, "LD_DEBUG": "files"})
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertIn("libstdc++", result.stderr)
+            return "etalon_image_io.so" in result.stderr or "libOpenImageIO" in result.stderr
+
+        self.scene()
+        self.assertFalse(loaded("--help"))
+        self.assertFalse(loaded("plan", "scene.toml"))
+        self.assertFalse(loaded("render", "scene.toml", "-o", "a.exr"))
+        self.assertTrue(loaded("render", "scene.toml", "-o", "a.png"))
+        (self.folder / "probe.pfm").write_bytes(pfm(4, 2, [1.0] * 24))
+        self.scene("lit.toml", more='[environment]\nfile = "probe.pfm"\n')
+        self.assertTrue(loaded("render", "lit.toml", "-o", "b.exr"))
+
+    def test_a_missing_or_broken_image_module_is_one_line(self):
+        program, module = self.installed_copy()
+        arguments = ["render", self.scene(), "-o", "a.png"]
+        self.expect(0, *arguments, program=program)
+        os.unlink(self.folder / "a.png")
+        module.write_bytes(b"")
+        self.expect_error(f"{module}: cannot be loaded: ", *arguments, program=program)
+        module.unlink()
+        self.expect_error(f"{module}: no such module", *arguments, program=program)
+        self.assertEqual(self.images(), [])
+        self.expect(0, "render", "scene.toml", "-o", "a.exr", program=program)
+        self.expect_error(f"{module}: no such module", "compare", "a.exr", "a.exr", program=program)
+
 
 if __name__ == "__main__":
     SCENES = pathlib.Path(sys.argv.pop(2)).resolve()

@@ -110,6 +110,22 @@ TEST_CASE("ExrOfIdentifiersAloneKeepsThem") {
 
 TEST_CASE("SameFrameGivesTheSameFile") { CHECK(encodeExr(sampleFrame()) == encodeExr(sampleFrame())); }
 
+TEST_CASE("ExrMetadataUnderNamesOfTheFormatIsLeftOut") {
+    const ScratchFolder folder;
+    const std::map<std::string, std::string> kept = {
+        {"owner", "someone"}, {"etalon.scene", "demo.toml"}, {std::string(255, 'n'), "x"}};
+    Frame frame{1, 1, {{"R", Image<float>(1, 1)}}, kept};
+    for (const char* name : {"", "channels", "chunkCount", "compression", "dataWindow", "lineOrder", "name",
+                             "preview", "screenWindowWidth", "tiles", "type", "version", "view"})
+        frame.metadata[name] = "deeptile";
+    writeExr(frame, folder / "a.exr");
+    const auto back = readFrame(folder / "a.exr").metadata;
+    // The library reads "owner" as what TIFF calls it.
+    CHECK(back.at("Copyright") == "someone");
+    CHECK(back.at("etalon.scene") == "demo.toml");
+    CHECK(back.size() == kept.size());
+}
+
 TEST_CASE("TruncatedExrIsRefusedAtEveryLength") {
     const ScratchFolder folder;
     const auto encoded = encodeExr(sampleFrame());
