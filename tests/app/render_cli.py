@@ -58,7 +58,8 @@ class Render(CliCase):
 
     def test_two_renders_are_the_same_bits(self):
         self.scene()
-        self.expect(0, "render", "scene.toml", "-o", "a.exr", "--threads", "1", "--tile", "16")
+        self.expect(0, "render", "scene.toml", "-o", "a.exr", "--threads", "1", "--tile", "16",
+                    "--isa", "scalar")
         self.expect(0, "render", "scene.toml", "-o", "b.exr", "--threads", "2", "--tile", "128")
         self.expect(0, "compare", "a.exr", "b.exr")
         self.assertEqual((self.folder / "a.exr").read_bytes(), (self.folder / "b.exr").read_bytes())
@@ -89,6 +90,7 @@ class Render(CliCase):
                           ["render", "scene.toml", "-o", "a.exr", "--tile", "20"],
                           ["render", "scene.toml", "-o", "a.exr", "--tile", "many"],
                           ["render", "scene.toml", "-o", "a.exr", "--threads", "-1"],
+                          ["render", "scene.toml", "-o", "a.exr", "--isa", "v9"],
                           ["render", "scene.toml", "-o", "a.exr", "--outputs", "beauty,glow"]):
             with self.subTest(arguments=arguments):
                 self.expect(2, *arguments)
