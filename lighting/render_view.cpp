@@ -1,5 +1,7 @@
 #include "lighting/render_view.h"
 
+#include "lighting/cube_faces.h"
+
 namespace etalon {
 
 namespace {
@@ -26,7 +28,7 @@ VisibleScene findVisible(const SurfaceScene& scene, const std::vector<PlacedMesh
 
 void findVisible(VisibleScene& visible, const SurfaceScene& scene, const std::vector<PlacedMesh>& placed,
                  const View& view, const Profile& profile, int samples, const RasterOptions& options,
-                 uint32_t excluded) {
+                 uint32_t excluded, std::span<const std::vector<uint32_t>> only) {
     const RenderTargetFormat format = formatOf(profile, samples);
     RenderTarget& target = visible.target;
     if (target.width() != view.width || target.height() != view.height || target.format != format)
@@ -41,6 +43,7 @@ void findVisible(VisibleScene& visible, const SurfaceScene& scene, const std::ve
         Draw draw;
         draw.vertices = visible.vertices[i];
         draw.indices = placed[i].mesh->indices;
+        if (!only.empty()) draw.only = only[i];
         draw.state.cull = scene.instances[i].twoSided ? CullMode::none : CullMode::back;
         draw.state.frontIsClockwise = view.mirrored != placed[i].mirrored;
         draws.push_back(draw);
@@ -54,21 +57,27 @@ void findVisible(VisibleScene& visible, const SurfaceScene& scene, const std::ve
 CubeRender renderCubeMap(const SurfaceScene& scene, const std::vector<PlacedMesh>& placed,
                          const CubeRenderRequest& request, const CubeMap<float>* environmentCube,
                          const Profile& profile, const RasterOptions& options) {
+    // The triangles of each face, per instance.
+    std::array<std::vector<std::vector<uint32_t>>, kCubeFaces> only;
+    for (uint32_t i = 0; i < scene.instances.size(); i++) {
+        std::array<std::vector<uint32_t>, kCubeFaces> lists;
+        if (i != request.excluded) lists = trianglesOfFaces(placed[i], request.centre, options.threads);
+        for (size_t face = 0; face < kCubeFaces; face++) only[face].push_back(std::move(lists[face]));
+    }
+
     CubeRender cube;
-    std::optional<VisibleScene> visible;
+    VisibleScene visible{RenderTarget(request.size, request.size, formatOf(profile, 1)), {}, {}, {}};
     for (int face = 0; face < kCubeFaces; face++) {
         const View view = cubeFaceView(static_cast<CubeFace>(face), request.size, request.centre,
                                        request.near_m, request.far_m);
-        if (visible)
-            findVisible(*visible, scene, placed, view, profile, 1, options, request.excluded);
-        else
-            visible.emplace(findVisible(scene, placed, view, profile, 1, options, request.excluded));
+        findVisible(visible, scene, placed, view, profile, 1, options, request.excluded,
+                    only[static_cast<size_t>(face)]);
         ShadeJob job;
         job.scene = &scene;
         job.view = &view;
-        job.target = &visible->target;
+        job.target = &visible.target;
         job.placed = &placed;
-        job.instanceOfDraw = visible->instanceOfDraw;
+        job.instanceOfDraw = visible.instanceOfDraw;
         job.environmentCube = environmentCube;
         job.sceneCubes.assign(scene.instances.size(), nullptr);
         job.request[ShadeOutput::beauty] = true;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 
 namespace etalon {
@@ -61,6 +62,11 @@ struct Draw {
     std::span<const ClipVertex> vertices;
     std::span<const uint32_t> indices;
     DrawState state;
+    // The numbers of the triangles to draw, in this order, where not all are; they keep their numbers in the records.
+    std::optional<std::span<const uint32_t>> only = {};
+
+    size_t triangleCount() const { return only ? only->size() : indices.size() / 3; }
+    size_t triangleNumber(size_t i) const { return only ? (*only)[i] : i; }
 };
 
 }  // namespace etalon

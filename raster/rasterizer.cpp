@@ -99,9 +99,9 @@ class Rasterization {
 
     void setUpAll() {
         size_t total = 0;
-        for (const Draw& draw : draws_) total += draw.indices.size() / 3;
+        for (const Draw& draw : draws_) total += draw.triangleCount();
         const size_t perChunk = std::max(kTrianglesPerChunk, total * grid_.count() / kMaxChunkCounts);
-        chunks_ = cut(draws_, perChunk, [](const Draw& draw) { return draw.indices.size() / 3; });
+        chunks_ = cut(draws_, perChunk, [](const Draw& draw) { return draw.triangleCount(); });
         if (scratch_.setups.size() < chunks_.size()) scratch_.setups.resize(chunks_.size());
         parallelFor(chunks_.size(), options_.threads, [&](size_t c) {
             scratch_.setups[c].begin(transform_, grid_);

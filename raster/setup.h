@@ -41,7 +41,7 @@ class TriangleSetup {
   public:
     // Starts anew; keeps the memory.
     void begin(const ViewportTransform& transform, const TileGrid& grid);
-    // The triangles [first, last) of a draw.
+    // The triangles [first, last) of those that a draw draws.
     void process(const DrawInput& input, size_t first, size_t last);
 
     std::vector<StoredTriangle> triangles;
