@@ -50,6 +50,10 @@ class TileShaderOf final : public TileShader {
     };
 
     static vec3 constant(const glm::dvec3& v) { return vec3(T(v.x), T(v.y), T(v.z)); }
+    using Condition = typename K::boolean;
+    static bool everyLane(const Condition& c) { return !anyOf(!c); }
+    static Condition isFinite(const T& a) { return a - a == T(0.0); }
+    static Condition isFinite(const vec3& a) { return isFinite(a.x) && isFinite(a.y) && isFinite(a.z); }
     void setUpTriangles();
     size_t bucketOf(const SurfaceMaterial& material, const CubeMap<float>* cube);
     void sortIntoBuckets();
@@ -72,6 +76,7 @@ class TileShaderOf final : public TileShader {
     const ShadeJob& job_;
     K kernels_;
     std::vector<vec3> toLight_, irradiance_;
+    std::vector<bool> finiteLight_;  // whether the irradiance is, as a T
     vec3 ambient_, eye_;
     SamplerSettings sampler_;
     TileFragments tile_;
@@ -86,6 +91,7 @@ TileShaderOf<T>::TileShaderOf(const ShadeJob& job) : job_(job) {
     for (const SurfaceLight& light : job.scene->lights) {
         toLight_.push_back(constant(light.toLight));
         irradiance_.push_back(constant(light.irradiance));
+        finiteLight_.push_back(everyLane(isFinite(irradiance_.back())));
     }
     ambient_ = constant(job.scene->ambient);
     eye_ = constant(job.view->eye);
@@ -246,7 +252,11 @@ template <class T>
     const vec3 colour = constant(material.specular);
     const T exponent(material.exponent), scale((material.exponent + 8.0) / kEightPi);
     Reflected sum{constant(glm::dvec3(0)), constant(glm::dvec3(0))};
+    // A light behind the surfaces of all lanes adds zeros, unless something here is not finite.
+    const bool hasZeros = everyLane(isFinite(toEye) && isFinite(scale));
     for (size_t l = 0; l < toLight_.size(); l++) {
+        const bool isBehind = everyLane(kernels_.dot3(n, toLight_[l]) <= T(0.0));
+        if (isBehind && hasZeros && finiteLight_[l]) continue;
         if (diffuse)
             sum.diffuse =
                 kernels_.add3(sum.diffuse, kernels_.lambert(n, toLight_[l], irradiance_[l], surface));
