@@ -31,8 +31,8 @@ uint32_t outsidePlanes(const glm::dvec3& d, double error) {
 
 }  // namespace
 
-std::array<std::vector<uint32_t>, kCubeFaces> trianglesOfFaces(const PlacedMesh& mesh, const glm::dvec3& centre,
-                                                               int threads) {
+std::array<std::vector<uint32_t>, kCubeFaces> trianglesOfFaces(const PlacedMesh& mesh,
+                                                               const glm::dvec3& centre, int threads) {
     // Codes of the vertices.
     double largest = std::max({std::fabs(centre.x), std::fabs(centre.y), std::fabs(centre.z)});
     for (const glm::dvec3& p : mesh.positions)

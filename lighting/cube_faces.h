@@ -9,12 +9,12 @@
 
 namespace etalon {
 
-// For each face (in the order of CubeFace) the numbers of the mesh's triangles that can cover a sample of it, ascending.
-// A triangle is left out only if it lies on the outer side of one of the four planes through the centre that bound the
-// face, moved out by 1/64 of the distance along the face's axis and by 2^-20 of the largest coordinate: more than
-// snapping (rule 3) and the vertex arithmetic can move it in, at any size of the face. Vertices that are not finite
-// leave their triangles in every list. centre: world space.
-std::array<std::vector<uint32_t>, kCubeFaces> trianglesOfFaces(const PlacedMesh& mesh, const glm::dvec3& centre,
-                                                               int threads);
+// For each face (in the order of CubeFace) the numbers of the mesh's triangles that can cover a sample of it,
+// ascending. A triangle is left out only if it lies on the outer side of one of the four planes through the
+// centre that bound the face, moved out by 1/64 of the distance along the face's axis and by 2^-20 of the
+// largest coordinate: more than snapping (rule 3) and the vertex arithmetic can move it in, at any size of
+// the face. Vertices that are not finite leave their triangles in every list. centre: world space.
+std::array<std::vector<uint32_t>, kCubeFaces> trianglesOfFaces(const PlacedMesh& mesh,
+                                                               const glm::dvec3& centre, int threads);
 
 }  // namespace etalon

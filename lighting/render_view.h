@@ -25,8 +25,8 @@ inline constexpr uint32_t kNoInstance = std::numeric_limits<uint32_t>::max();
 VisibleScene findVisible(const SurfaceScene& scene, const std::vector<PlacedMesh>& placed, const View& view,
                          const Profile& profile, int samples, const RasterOptions& options,
                          uint32_t excluded = kNoInstance);
-// The same into what an earlier frame left: its memory serves again where the size and the format are the same. `only`:
-// for each instance the triangles that are drawn (Draw::only); empty: all.
+// The same into what an earlier frame left: its memory serves again where the size and the format are the
+// same. `only`: for each instance the triangles that are drawn (Draw::only); empty: all.
 void findVisible(VisibleScene& visible, const SurfaceScene& scene, const std::vector<PlacedMesh>& placed,
                  const View& view, const Profile& profile, int samples, const RasterOptions& options,
                  uint32_t excluded = kNoInstance, std::span<const std::vector<uint32_t>> only = {});

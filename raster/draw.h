@@ -62,7 +62,8 @@ struct Draw {
     std::span<const ClipVertex> vertices;
     std::span<const uint32_t> indices;
     DrawState state;
-    // The numbers of the triangles to draw, in this order, where not all are; they keep their numbers in the records.
+    // The numbers of the triangles to draw, in this order, where not all are; they keep their numbers in the
+    // records.
     std::optional<std::span<const uint32_t>> only = {};
 
     size_t triangleCount() const { return only ? only->size() : indices.size() / 3; }

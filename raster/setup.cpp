@@ -65,8 +65,8 @@ void TriangleSetup::process(const DrawInput& input, size_t first, size_t last) {
     const int planes = state.depthClamp ? ~kDepthPlanes : ~0;
     for (size_t k = first; k < last; k++) {
         const size_t t = input.draw->triangleNumber(k);
-        ETALON_CHECK(3 * t + 2 < input.draw->indices.size(), "triangle {} of draw {}, which has {} indices", t,
-                     input.number, input.draw->indices.size());
+        ETALON_CHECK(3 * t + 2 < input.draw->indices.size(), "triangle {} of draw {}, which has {} indices",
+                     t, input.number, input.draw->indices.size());
         std::array<uint32_t, 3> corners;
         for (size_t i = 0; i < 3; i++) {
             corners[i] = input.draw->indices[3 * t + i];

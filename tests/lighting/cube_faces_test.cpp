@@ -15,11 +15,12 @@ SurfaceMesh soup(Random& random, const glm::dvec3& centre, int count) {
     const auto coordinate = [&] { return random.integer(-1000, 1000) / 1000.0; };
     for (int t = 0; t < count; t++) {
         glm::dvec3 around(coordinate(), coordinate(), coordinate());
-        if (t % 4 == 1) around.y = around.x;               // near the edge between +X and +Y
+        if (t % 4 == 1) around.y = around.x;                        // near the edge between +X and +Y
         if (t % 4 == 2) around.y = around.x, around.z = -around.x;  // near a corner
         const double size = t % 3 == 0 ? 0.001 : t % 3 == 1 ? 0.1 : 3.0;
         for (int k = 0; k < 3; k++) {
-            const glm::dvec3 p = centre + around + size * glm::dvec3(coordinate(), coordinate(), coordinate());
+            const glm::dvec3 p =
+                centre + around + size * glm::dvec3(coordinate(), coordinate(), coordinate());
             mesh.indices.push_back(static_cast<uint32_t>(mesh.positions.size()));
             mesh.positions.emplace_back(p);
             mesh.normals.emplace_back(0, 1, 0);

@@ -23,7 +23,8 @@ TEST_CASE("OnlyUsableLevelsCanBeSelected") {
         selectIsa(level);
         CHECK(activeIsa() == level);
     }
-    for (const IsaLevel level : {IsaLevel::scalar, IsaLevel::v2, IsaLevel::v3, IsaLevel::v4, IsaLevel::neon}) {
+    for (const IsaLevel level :
+         {IsaLevel::scalar, IsaLevel::v2, IsaLevel::v3, IsaLevel::v4, IsaLevel::neon}) {
         if (std::find(usable.begin(), usable.end(), level) != usable.end()) continue;
         CHECK_THROWS_AS(selectIsa(level), PreconditionError);
     }
