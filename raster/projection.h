@@ -70,13 +70,21 @@ struct Projection {
         }
     }
 
-    // The outcode as a whole number.
-    static real outcode(vec4 p, const ViewportTransform& t) {
-        real code = select(isUsable(p), real(0.0), real(static_cast<double>(kUnusableVertex)));
-        for (int plane = 0; plane < kClipPlanes; plane++)
-            code = code + select(signedDistance(plane, p, t) < real(0.0),
-                                 real(static_cast<double>(1 << plane)), real(0.0));
-        return code;
+    // The outcode as a whole number, and whether the vertex can be projected: it is usable and inside the
+    // planes of w and the guard band.
+    struct Outcode {
+        real code;
+        boolean canBeProjected;
+    };
+    static Outcode outcode(vec4 p, const ViewportTransform& t) {
+        Outcode result{real(0.0), isUsable(p)};
+        result.code = select(result.canBeProjected, real(0.0), real(static_cast<double>(kUnusableVertex)));
+        for (int plane = 0; plane < kClipPlanes; plane++) {
+            const boolean outside = signedDistance(plane, p, t) < real(0.0);
+            result.code = result.code + select(outside, real(static_cast<double>(1 << plane)), real(0.0));
+            if ((kDepthPlanes & 1 << plane) == 0) result.canBeProjected = result.canBeProjected && !outside;
+        }
+        return result;
     }
 
     // Nearest whole number, ties to even, for |v| < 2^51: the sum with 1.5 * 2^52 has no fraction bits.

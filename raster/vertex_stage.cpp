@@ -8,7 +8,6 @@ void projectVertices(const ViewportTransform& transform, std::span<const ClipVer
                      std::span<ProjectedVertex> projected, std::span<uint8_t> outcodes) {
     using T = Native<double>;
     using P = Projection<T>;
-    constexpr int kNotProjected = ~kDepthPlanes;
     forEachLaneGroup<NumberTraits<T>::lanes>(vertices.size(), [&](size_t first, int active) {
         const auto item = [&](int lane) -> const ClipVertex& {
             return vertices[first + static_cast<size_t>(lane < active ? lane : active - 1)];
@@ -18,25 +17,17 @@ void projectVertices(const ViewportTransform& transform, std::span<const ClipVer
                            generateNumber<T>([&](int i) { return item(i).y; }) + T(0.0),
                            generateNumber<T>([&](int i) { return item(i).z; }) + T(0.0),
                            generateNumber<T>([&](int i) { return item(i).w; }) + T(0.0));
-        const T code = P::outcode(p, transform);
-        int codes[NumberTraits<T>::lanes], any = 0;
-        for (int i = 0; i < active; i++) any |= codes[i] = static_cast<int>(numberLane(code, i));
-        if ((any & kNotProjected) != 0) {
-            // The others of the group project a point in the middle.
-            const auto keep = [&](T value, double instead) {
-                return generateNumber<T>([&](int i) {
-                    return i < active && (codes[i] & kNotProjected) == 0 ? numberLane(value, i) : instead;
-                });
-            };
-            p = {keep(p.x, 0), keep(p.y, 0), keep(p.z, 0), keep(p.w, 1)};
-        }
+        const auto [code, canBeProjected] = P::outcode(p, transform);
+        // The others are put in the middle.
+        p = {P::select(canBeProjected, p.x, T(0.0)), P::select(canBeProjected, p.y, T(0.0)),
+             P::select(canBeProjected, p.z, T(0.0)), P::select(canBeProjected, p.w, T(1.0))};
         const T x = P::snapX(p, transform), y = P::snapY(p, transform), z = P::depth(p, transform);
         const T reciprocalW = T(1.0) / p.w;
         for (int i = 0; i < active; i++) {
             const size_t v = first + static_cast<size_t>(i);
             projected[v] = {static_cast<int32_t>(numberLane(x, i)), static_cast<int32_t>(numberLane(y, i)),
                             numberLane(z, i), numberLane(reciprocalW, i)};
-            outcodes[v] = static_cast<uint8_t>(codes[i]);
+            outcodes[v] = static_cast<uint8_t>(numberLane(code, i));
         }
     });
 }
