@@ -364,8 +364,10 @@ void TileRasterizerOfLevel::drawLargePiece(const Piece& piece) {
         lanes[i] = splat(edge.stepX) * laneX() + splat(edge.stepY) * laneY();
         stepX[i] = static_cast<double>(int64_t{edge.stepX} * (1 << n));
         stepY[i] = static_cast<double>(int64_t{edge.stepY} * (1 << n));
-        laneValues[i] = generateDoubles(
-            [&](int lane) { return stepX[i] * (lane % kGroupWidth) + stepY[i] * (lane / kGroupWidth); });
+        laneValues[i] = generateDoubles([&](int lane) {
+            const int column = lane % kGroupWidth, row = lane / kGroupWidth;
+            return stepX[i] * column + stepY[i] * row;
+        });
     }
     const auto drawBlock = [&](const Piece& block, int sample) {
         const auto [x_subpx, y_subpx] = samplePosition(block.x0, block.y0, sample);
@@ -433,7 +435,8 @@ void TileRasterizerOfLevel::drawGroup(std::span<const Piece> pieces) {
     box.x1 = std::min(box.x1, rectangle_.x1 - 1);
     box.y1 = std::min(box.y1, rectangle_.y1 - 1);
     const auto visit = [&](const Group& group, int sample) {
-        const auto [x_subpx, y_subpx] = samplePosition(group.x, group.y, sample);
+        const std::array<int64_t, 2> position = samplePosition(group.x, group.y, sample);
+        const int64_t x_subpx = position[0], y_subpx = position[1];
         std::array<int, kGroup> firstCovering;
         const GroupMask covered = winding(pieces, x_subpx, y_subpx, firstCovering) && insideRectangle(group);
         for (size_t k = 0; k < pieces.size(); k++) {
