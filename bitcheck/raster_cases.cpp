@@ -176,7 +176,7 @@ void addRasterCases(std::vector<BitCase>& cases) {
         });
     for (const auto& [name, depth] : {std::pair("d16", d16), std::pair("d24", d24), std::pair("d32f", d32f)})
         add(std::string("bias-") + name, "depth bias, comparisons, culling, facing",
-            [depth](const RasterOptions& options) {
+            [depth = depth](const RasterOptions& options) {
                 return drawBiased(formatOf(1, 8, depth, exact, fp32), options);
             });
     add("stencil-4", "stencil operations, comparisons and masks, write masks, 4 samples",

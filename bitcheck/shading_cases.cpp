@@ -110,7 +110,7 @@ void addShadingCases(std::vector<BitCase>& cases) {
     for (const auto& [name, real] :
          {std::pair("fp32", RasterReal::fp32), std::pair("fp64", RasterReal::fp64)})
         add(std::string("vertices/") + name, "object space to world space to clip space", false,
-            [real](const RasterOptions& options) { return vertexStage(real, options.threads); });
+            [real = real](const RasterOptions& options) { return vertexStage(real, options.threads); });
     const Profile& first = profiles().front();
     add("cube/" + std::string(first.name), "six faces of the scene with distances", true,
         [&first](const RasterOptions& options) { return cubeOfScene(first, 40, options); });
