@@ -19,11 +19,13 @@ ProjectedVertex project(const ClipVertex& v, const ViewportTransform& transform)
             static_cast<int32_t>(Kernel::snapY(p, transform)), Kernel::depth(p, transform), 1.0 / v.w};
 }
 
-// Rule 4 for the edge from a to b.
-bool isInside(const ProjectedVertex& a, const ProjectedVertex& b, int64_t x_subpx, int64_t y_subpx) {
-    const int64_t dx = int64_t{b.x_subpx} - a.x_subpx, dy = int64_t{b.y_subpx} - a.y_subpx;
-    const bool ownsZero = dy < 0 || (dy == 0 && dx > 0);
-    return dx * (y_subpx - a.y_subpx) - dy * (x_subpx - a.x_subpx) >= (ownsZero ? 0 : 1);
+EdgeFunction edgeBetween(int64_t xa_subpx, int64_t ya_subpx, int64_t xb_subpx, int64_t yb_subpx) {
+    const int64_t dx = xb_subpx - xa_subpx, dy = yb_subpx - ya_subpx;
+    const bool topOrLeft = dy < 0 || (dy == 0 && dx > 0);
+    return {-dy, dx, dy * xa_subpx - dx * ya_subpx, topOrLeft};
+}
+EdgeFunction edgeBetween(const ProjectedVertex& a, const ProjectedVertex& b) {
+    return edgeBetween(a.x_subpx, a.y_subpx, b.x_subpx, b.y_subpx);
 }
 
 // Orientation made positive.
@@ -42,10 +44,7 @@ std::array<EdgeFunction, 3> edgeFunctions(const TriangleRecord& record) {
     std::array<EdgeFunction, 3> edges;
     for (size_t i = 0; i < 3; i++) {
         const size_t a = (i + 1) % 3, b = (i + 2) % 3;
-        const int64_t dx = int64_t{record.x_subpx[b]} - record.x_subpx[a];
-        const int64_t dy = int64_t{record.y_subpx[b]} - record.y_subpx[a];
-        const bool topOrLeft = dy < 0 || (dy == 0 && dx > 0);
-        edges[i] = {-dy, dx, dy * record.x_subpx[a] - dx * record.y_subpx[a], topOrLeft};
+        edges[i] = edgeBetween(record.x_subpx[a], record.y_subpx[a], record.x_subpx[b], record.y_subpx[b]);
     }
     return edges;
 }
@@ -128,10 +127,11 @@ bool TriangleSetup::missesAll(const TileGrid::PixelBox& box, const ProjectedVert
                               const ProjectedVertex& b, const ProjectedVertex& c) const {
     constexpr int kFewPixels = 4;
     if (!grid_->hasOneSample() || (box.x1 - box.x0 + 1) * (box.y1 - box.y0 + 1) > kFewPixels) return false;
+    const EdgeFunction bc = edgeBetween(b, c), ca = edgeBetween(c, a), ab = edgeBetween(a, b);
     for (int y = box.y0; y <= box.y1; y++)
         for (int x = box.x0; x <= box.x1; x++) {
             const int64_t px = grid_->sampleX_subpx(x), py = grid_->sampleY_subpx(y);
-            if (isInside(b, c, px, py) && isInside(c, a, px, py) && isInside(a, b, px, py)) return false;
+            if (bc.covers(px, py) && ca.covers(px, py) && ab.covers(px, py)) return false;
         }
     return true;
 }
