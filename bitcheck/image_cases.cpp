@@ -3,7 +3,7 @@
 
 #include "bitcheck/bit_case.h"
 #include "bitcheck/inputs.h"
-#include "lighting/latlong.h"
+#include "probes/latlong.h"
 #include "lighting/shade.h"
 #include "lighting/tone_map.h"
 #include "raster/blur.h"

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <utility>
 
-#include "lighting/latlong.h"
+#include "probes/latlong.h"
 #include "numeric/elementary.h"
 
 namespace etalon {

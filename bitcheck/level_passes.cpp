@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "bitcheck/number_tables.h"
-#include "lighting/latlong.h"
+#include "probes/latlong.h"
 #include "numeric/elementary.h"
 #include "numeric/lanes.h"
 #include "numeric/number_lanes.h"

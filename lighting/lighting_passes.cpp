@@ -1,27 +1,16 @@
 #include "lighting/lighting_passes.h"
 
-#include "numeric/check.h"
 #include "numeric/levels.h"
+#include "raster/fragment_numbers.h"
 
 namespace etalon {
 
-#define ETALON_DECLARE(name)                    \
-    namespace level_##name {                    \
-        const LightingPasses& lightingPasses(); \
-    }
-ETALON_FOR_EACH_LEVEL(ETALON_DECLARE)
+ETALON_PASSES_OF_ACTIVE_LEVEL(LightingPasses, lightingPasses)
+ETALON_DECLARE_ARITHMETICS(ShadingPasses, shadingPasses)
 
-const LightingPasses& lightingPasses() {
-    switch (activeIsa()) {
-#define ETALON_CASE(name) \
-    case IsaLevel::name:  \
-        return level_##name::lightingPasses();
-        ETALON_FOR_EACH_LEVEL(ETALON_CASE)
-        default:
-            break;
-    }
-    ETALON_CHECK(false, "level {} is not built", isaName(activeIsa()));
-    __builtin_unreachable();
+ShadingPasses shadingPasses(FragmentArithmetic arithmetic) {
+    return arithmetic == FragmentArithmetic::truth ? shadingPasses_truth()
+                                                   : lightingPasses().shading(arithmetic);
 }
 
 }  // namespace etalon

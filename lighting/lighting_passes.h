@@ -6,7 +6,7 @@
 #include <glm/vec4.hpp>
 #include <span>
 
-#include "lighting/arithmetic_passes.h"
+#include "lighting/shading_passes.h"
 #include "lighting/tone_map.h"
 #include "raster/draw.h"
 #include "raster/render_target.h"
@@ -18,7 +18,7 @@ using TransformRows = std::array<glm::dvec4, 4>;
 
 struct LightingPasses {
     // All but truth, which has no lanes.
-    ArithmeticPasses (*arithmetic)(FragmentArithmetic arithmetic);
+    ShadingPasses (*shading)(FragmentArithmetic arithmetic);
     Image<uint8_t> (*toneMap)(const Image<float>& radiance, ToneMap operation, double exposureStops,
                               int threads);
     // to[i] = the rows applied to (from[i], 1), in the vertex arithmetic; from and to have the same size.

@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <mutex>
 
-#include "lighting/arithmetic_passes.h"
+#include "lighting/shading_passes.h"
 #include "numeric/check.h"
 #include "numeric/parallel.h"
+#include "probes/mapping_passes.h"
 
 namespace etalon {
 namespace {
@@ -29,7 +30,7 @@ ShadedImages shade(const ShadeJob& job, ShadeStatistics* statistics) {
             images.images[o] = Image<float>(width, height, channelsOf(static_cast<ShadeOutput>(o)));
 
     // One shader per thread at work; the sums of the counts do not depend on who counted.
-    const ArithmeticPasses passes = passesOf(job.profile->fragment);
+    const ShadingPasses passes = shadingPasses(job.profile->fragment);
     std::mutex mutex;
     std::vector<std::unique_ptr<TileShader>> idle;
     ShadeStatistics total;
@@ -64,7 +65,7 @@ CubeMap<float> environmentCube(const SurfaceEnvironment& environment, const Prof
     options.filter = profile.textureFilter;
     options.fractionBits = profile.textureFractionBits;
     const int size = std::max(1, environment.latLong.width() / 4);
-    return passesOf(profile.fragment).cubeFromLatLong(environment.latLong, size, options, threads);
+    return mappingPasses(profile.fragment).cubeFromLatLong(environment.latLong, size, options, threads);
 }
 
 }  // namespace etalon

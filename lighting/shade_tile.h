@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "lighting/arithmetic_passes.h"
+#include "lighting/shading_passes.h"
 #include "lighting/shading_kernels.h"
 #include "lighting/tile_triangles.h"
 #include "numeric/number_lanes.h"
@@ -360,17 +360,6 @@ typename TileShaderOf<T>::vec3 TileShaderOf<T>::sampleEnvironment(vec3 direction
     const TextureView texture(job_.scene->environment.latLong);
     return kernels_.sampleLatLong(texture, direction,
                                   samplingOf<K>(sampler_, texture.width(), texture.height()));
-}
-
-// The passes over T, for the source that instantiates them.
-template <class T>
-ArithmeticPasses passesOver() {
-    return {[](const ShadeJob& job) -> std::unique_ptr<TileShader> {
-                return std::make_unique<TileShaderOf<T>>(job);
-            },
-            [](const Image<float>& latLong, int size, const CubeFromLatLong& options, int threads) {
-                return cubeFromLatLong<T>(latLong, size, options, threads);
-            }};
 }
 
 }  // namespace etalon

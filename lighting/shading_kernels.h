@@ -21,7 +21,7 @@ struct ShadingKernels {
 #include "lighting/kernels/blinn_phong.glsl"
 #include "lighting/kernels/checker.glsl"
 #include "lighting/kernels/lambert.glsl"
-#include "lighting/kernels/latlong.glsl"
+#include "probes/kernels/latlong.glsl"
 #include "lighting/kernels/mirror.glsl"
 #include "lighting/kernels/rotate_y.glsl"
 };

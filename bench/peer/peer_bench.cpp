@@ -8,7 +8,7 @@
 
 #include "bench/measure.h"
 #include "bench/peer/peer_passes.h"
-#include "lighting/latlong.h"
+#include "probes/latlong.h"
 #include "numeric/check.h"
 #include "raster/blur.h"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "lighting/arithmetic_passes.h"
+#include "lighting/shading_passes.h"
 #include "numeric/fp_environment.h"
 #include "tests/support/box_scene.h"
 
@@ -299,7 +299,7 @@ TEST_CASE("FlushingSubnormalsChangesNoBitOfTheShading") {
     {
         const FlushToZeroScope flush;
         ShadeStatistics statistics;
-        passesOf(profile.fragment).makeTileShader(job)->run({0, 0, 64, 64}, flushed, statistics);
+        shadingPasses(profile.fragment).makeTileShader(job)->run({0, 0, 64, 64}, flushed, statistics);
     }
     for (size_t o = 0; o < kShadeOutputs; o++) CHECK(flushed.images[o] == kept.images[o]);
 }

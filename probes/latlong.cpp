@@ -1,6 +1,6 @@
-#include "lighting/latlong.h"
+#include "probes/latlong.h"
 
-#include "lighting/arithmetic_passes.h"
+#include "probes/mapping_passes.h"
 #include "numeric/check.h"
 
 namespace etalon {
@@ -33,7 +33,7 @@ LatLongGrid::LatLongGrid(int width, int height) {
 
 CubeMap<float> cubeFromLatLong(const Image<float>& latLong, int size, const CubeFromLatLong& options,
                                int threads) {
-    return passesOf(FragmentArithmetic::fp32).cubeFromLatLong(latLong, size, options, threads);
+    return mappingPasses(FragmentArithmetic::fp32).cubeFromLatLong(latLong, size, options, threads);
 }
 
 }  // namespace etalon

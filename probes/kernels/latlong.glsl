@@ -1,4 +1,4 @@
-// Latitude-longitude images of the environment. Specified in lighting/latlong.h.
+// Latitude-longitude images of the environment. Specified in probes/latlong.h.
 // needs: numeric/kernels/wide.glsl
 // needs: numeric/kernels/atan2.glsl
 // needs: raster/kernels/texture_scope.glsl

@@ -1,4 +1,4 @@
-#include "lighting/latlong.h"
+#include "probes/latlong.h"
 
 #include <ImathBox.h>
 #include <ImathVec.h>

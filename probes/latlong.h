@@ -1,4 +1,4 @@
-// Latitude-longitude images of the environment. The texts are lighting/kernels/latlong.glsl.
+// Latitude-longitude images of the environment. The texts are probes/kernels/latlong.glsl.
 //
 // Orientation as in OpenEXR's envmap convention [OpenEXR, ImfEnvmap.h], with +Y up:
 //   longitude = atan2(x, z), latitude = atan2(y, sqrt(x^2 + z^2)),
@@ -40,7 +40,7 @@ struct LatLongKernel {
 #include "numeric/kernel_scope.inc"
 #include "raster/texture_scope.inc"
 #include "raster/kernels/sampler.glsl"
-#include "lighting/kernels/latlong.glsl"
+#include "probes/kernels/latlong.glsl"
 #include "raster/kernels/cube_face.glsl"
 };
 

@@ -1,0 +1,31 @@
+# Sources that instantiate families of passes once per fragment arithmetic (raster/fragment_numbers.h).
+set(etalon_lane_arithmetics fp64 fp32 fp32Flush fp32Nv40 fp16 fp16Nv40 bf16 fp24R300)
+
+# etalon_arithmetic_sources(LIBRARY LEVELED UNLEVELED families...): writes a source per family and arithmetic and sets
+# LEVELED to those that etalon_leveled_sources() takes and UNLEVELED to those of truth. Family "shading" is
+# template <class T> ShadingPasses shadingPassesOver() in LIBRARY/shading_passes_over.h.
+function(etalon_arithmetic_sources library leveled unleveled)
+  set(laned "")
+  set(of_truth "")
+  foreach(family ${ARGN})
+    set(header ${library}/${family}_passes_over.h)
+    set(function ${family}Passes)
+    string(SUBSTRING ${family} 0 1 initial)
+    string(SUBSTRING ${family} 1 -1 rest)
+    string(TOUPPER ${initial} initial)
+    set(Passes ${initial}${rest}Passes)
+    foreach(arithmetic ${etalon_lane_arithmetics} truth)
+      set(source ${CMAKE_CURRENT_BINARY_DIR}/${family}_${arithmetic}.cpp)
+      set(numbers raster/fragment_numbers.h)
+      if(arithmetic STREQUAL truth)
+        set(numbers raster/fragment_truth.h)
+        list(APPEND of_truth ${source})
+      else()
+        list(APPEND laned ${source})
+      endif()
+      configure_file(${PROJECT_SOURCE_DIR}/cmake/arithmetic_source.cpp.in ${source} @ONLY)
+    endforeach()
+  endforeach()
+  set(${leveled} ${laned} PARENT_SCOPE)
+  set(${unleveled} ${of_truth} PARENT_SCOPE)
+endfunction()

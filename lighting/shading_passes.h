@@ -1,0 +1,24 @@
+// The shading passes, once per fragment arithmetic (raster/fragment_numbers.h).
+#pragma once
+
+#include <memory>
+
+#include "lighting/shade.h"
+
+namespace etalon {
+
+// Shades the fragments of tiles, one after the other; holds the scene's constants as its number type.
+class TileShader {
+  public:
+    virtual ~TileShader() = default;
+    virtual void run(const PixelRectangle& rectangle, ShadedImages& images, ShadeStatistics& statistics) = 0;
+};
+
+struct ShadingPasses {
+    std::unique_ptr<TileShader> (*makeTileShader)(const ShadeJob& job);
+};
+
+// Those of an arithmetic.
+ShadingPasses shadingPasses(FragmentArithmetic arithmetic);
+
+}  // namespace etalon

@@ -1,0 +1,13 @@
+// Passes between mappings over a number type, for the sources that instantiate them.
+#pragma once
+
+#include "probes/mapping_passes.h"
+
+namespace etalon {
+
+template <class T>
+MappingPasses mappingPassesOver() {
+    return {cubeFromLatLong<T>};
+}
+
+}  // namespace etalon
