@@ -70,8 +70,8 @@ struct Checker {
     double size_m = 1;
 };
 
-// Reflectances in [0, 1]. lambert: diffuse; blinnPhong: diffuse, specular, exponent in [1, kMaxExponent];
-// mirror: reflectance.
+// Reflectances in [0, 1]. lambert: diffuse; blinnPhong: diffuse, specular, exponent in [1, kMaxExponent], and
+// reflectance of a mirror below; mirror: reflectance.
 struct Material {
     int line = 0;
     std::string name;
@@ -123,6 +123,7 @@ struct Render {
     int line = 0;
     int samples = 1;              // per pixel: 1, 4 or 16
     std::string profile = "f32";  // of profiles()
+    bool perVertex = false;       // lights are evaluated at vertices (Gouraud), else at pixels (Phong)
     uint64_t seed = 0;
 };
 

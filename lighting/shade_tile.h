@@ -9,6 +9,7 @@
 
 #include "lighting/shading_passes.h"
 #include "lighting/shading_kernels.h"
+#include "lighting/surface_lighting.h"
 #include "lighting/tile_triangles.h"
 #include "numeric/number_lanes.h"
 #include "raster/fragments.h"
@@ -25,7 +26,6 @@ class TileShaderOf final : public TileShader {
     using K = ShadingKernels<T>;
     using vec3 = typename K::vec3;
     static constexpr int N = NumberTraits<T>::lanes;
-    static constexpr double kEightPi = 25.132741228718345;
 
     using Stored = TexelStorage<T>;
     using Triangles = TileTriangles<T>;
@@ -44,16 +44,9 @@ class TileShaderOf final : public TileShader {
         // Whether the fragments are neighbours in memory.
         bool isRun() const { return fragments.back() - fragments.front() == fragments.size() - 1; }
     };
-    // What the lights of a group add up to.
-    struct Reflected {
-        vec3 diffuse, specular;
-    };
+    using Lighting = SurfaceLighting<T>;
 
-    static vec3 constant(const glm::dvec3& v) { return vec3(T(v.x), T(v.y), T(v.z)); }
-    using Condition = typename K::boolean;
-    static bool everyLane(const Condition& c) { return !anyOf(!c); }
-    static Condition isFinite(const T& a) { return a - a == T(0.0); }
-    static Condition isFinite(const vec3& a) { return isFinite(a.x) && isFinite(a.y) && isFinite(a.z); }
+    static vec3 constant(const glm::dvec3& v) { return Lighting::constant(v); }
     void setUpTriangles();
     size_t bucketOf(const SurfaceMaterial& material, const CubeMap<float>* cube);
     void sortIntoBuckets();
@@ -61,8 +54,6 @@ class TileShaderOf final : public TileShader {
     void shadeBackground(const Group& group);
     void shadeSurface(const Bucket& bucket, const Group& group);
     vec3 albedo(const SurfaceMaterial& material, const Weights& w, const Group& group);
-    Reflected reflected(const SurfaceMaterial& material, vec3 n, vec3 toEye, vec3 surface, bool diffuse,
-                        bool specular);
     vec3 sampleEnvironment(vec3 direction);
     vec3 mirrorRadiance(const Bucket& bucket, vec3 n, vec3 toEye);
     void put(ShadeOutput output, const Group& group, vec3 value);
@@ -75,8 +66,7 @@ class TileShaderOf final : public TileShader {
 
     const ShadeJob& job_;
     K kernels_;
-    std::vector<vec3> toLight_, irradiance_;
-    std::vector<bool> finiteLight_;  // whether the irradiance is, as a T
+    Lighting lighting_;
     vec3 ambient_, eye_;
     SamplerSettings sampler_;
     TileFragments tile_;
@@ -87,12 +77,7 @@ class TileShaderOf final : public TileShader {
 };
 
 template <class T>
-TileShaderOf<T>::TileShaderOf(const ShadeJob& job) : job_(job) {
-    for (const SurfaceLight& light : job.scene->lights) {
-        toLight_.push_back(constant(light.toLight));
-        irradiance_.push_back(constant(light.irradiance));
-        finiteLight_.push_back(everyLane(isFinite(irradiance_.back())));
-    }
+TileShaderOf<T>::TileShaderOf(const ShadeJob& job) : job_(job), lighting_(*job.scene) {
     ambient_ = constant(job.scene->ambient);
     eye_ = constant(job.view->eye);
     sampler_.filter = job.profile->textureFilter;
@@ -149,6 +134,9 @@ void TileShaderOf<T>::setUpTriangles() {
         bucketOfTriangle_[i] =
             bucketOf(job_.scene->materials[job_.scene->instances[instance].material], cube);
         triangles_.set(i, *job_.target, id, (*job_.placed)[instance]);
+        if (job_.vertexRadiance)
+            triangles_.setRadiance(i, *job_.target, id, (*job_.placed)[instance],
+                                   (*job_.vertexRadiance)[instance]);
     }
 }
 
@@ -205,13 +193,13 @@ template <class T>
 void TileShaderOf<T>::shadeSurface(const Bucket& bucket, const Group& group) {
     const SurfaceMaterial& material = *bucket.material;
     const ShadeRequest& request = job_.request;
-    const bool hasDiffuse = material.kind != MaterialKind::mirror;
-    const bool lit = !toLight_.empty();
+    const bool hasDiffuse = hasDiffusePart(material);
+    const bool lit = !lighting_.empty();
     const bool ambient = hasDiffuse && request.needs(ShadeOutput::ambient);
     const bool diffuse = hasDiffuse && lit && request.needs(ShadeOutput::diffuse);
     const bool specular =
         material.kind == MaterialKind::blinnPhong && lit && request.needs(ShadeOutput::specular);
-    const bool mirror = material.kind == MaterialKind::mirror && request.needs(ShadeOutput::mirror);
+    const bool mirror = hasMirrorPart(material) && request.needs(ShadeOutput::mirror);
     const bool distance = request[ShadeOutput::distance], normals = request[ShadeOutput::normals];
     const bool needNormal = diffuse || specular || mirror || normals,
                needEye = specular || mirror || distance;
@@ -238,46 +226,24 @@ void TileShaderOf<T>::shadeSurface(const Bucket& bucket, const Group& group) {
     };
     const vec3 surface = ambient || diffuse ? albedo(material, w, group) : sum;
     if (ambient) add(ShadeOutput::ambient, kernels_.mul3(surface, ambient_));
-    const Reflected lights = reflected(material, n, toEye, surface, diffuse, specular);
-    if (diffuse) add(ShadeOutput::diffuse, lights.diffuse);
-    if (specular) add(ShadeOutput::specular, lights.specular);
+    if (job_.vertexRadiance) {
+        if (diffuse) add(ShadeOutput::diffuse, triangles_.diffuseRadiance(w, group.lanes));
+        if (specular) add(ShadeOutput::specular, triangles_.specularRadiance(w, group.lanes));
+    } else {
+        const auto lights = lighting_.reflected(material, n, toEye, surface, diffuse, specular);
+        if (diffuse) add(ShadeOutput::diffuse, lights.diffuse);
+        if (specular) add(ShadeOutput::specular, lights.specular);
+    }
     if (mirror) add(ShadeOutput::mirror, mirrorRadiance(bucket, n, toEye));
     put(ShadeOutput::beauty, group, sum);
-}
-
-// Flattened, so that constants stay in registers from light to light.
-template <class T>
-[[gnu::flatten]] typename TileShaderOf<T>::Reflected TileShaderOf<T>::reflected(
-    const SurfaceMaterial& material, vec3 n, vec3 toEye, vec3 surface, bool diffuse, bool specular) {
-    const vec3 colour = constant(material.specular);
-    const T exponent(material.exponent), scale((material.exponent + 8.0) / kEightPi);
-    Reflected sum{constant(glm::dvec3(0)), constant(glm::dvec3(0))};
-    // A light behind the surfaces of all lanes adds zeros, unless something here is not finite.
-    const bool hasZeros = everyLane(isFinite(toEye) && isFinite(scale));
-    for (size_t l = 0; l < toLight_.size(); l++) {
-        const bool isBehind = everyLane(kernels_.dot3(n, toLight_[l]) <= T(0.0));
-        if (isBehind && hasZeros && finiteLight_[l]) continue;
-        if (diffuse)
-            sum.diffuse =
-                kernels_.add3(sum.diffuse, kernels_.lambert(n, toLight_[l], irradiance_[l], surface));
-        if (specular)
-            sum.specular = kernels_.add3(
-                sum.specular,
-                kernels_.blinnPhong(n, toEye, toLight_[l], irradiance_[l], colour, exponent, scale));
-    }
-    return sum;
 }
 
 template <class T>
 typename TileShaderOf<T>::vec3 TileShaderOf<T>::albedo(const SurfaceMaterial& material, const Weights& w,
                                                        const Group& group) {
-    const vec3 even = constant(material.diffuse);
-    if (!material.checker) return even;
+    if (!material.checker) return constant(material.diffuse);
     const auto [u, v] = triangles_.surfaceCoordinates(w, group.lanes);
-    const auto isOdd = kernels_.isOddSquare(u, v, T(1.0 / material.checkerSize_m));
-    const vec3 odd = constant(material.diffuse2);
-    return vec3(K::select(isOdd, odd.x, even.x), K::select(isOdd, odd.y, even.y),
-                K::select(isOdd, odd.z, even.z));
+    return lighting_.surfaceColour(material, u, v);
 }
 
 template <class T>

@@ -20,12 +20,19 @@ struct SurfaceMaterial {
     MaterialKind kind = MaterialKind::lambert;
     glm::dvec3 diffuse{0};
     glm::dvec3 specular{0};
-    glm::dvec3 reflectance{0};  // of the mirror
+    glm::dvec3 reflectance{0};  // of mirrors, and of a mirror below Blinn-Phong's lobe
     double exponent = 1;        // of Blinn-Phong, at least 1
     bool checker = false;       // squares of odd parity take diffuse2; u and v in metres
     glm::dvec3 diffuse2{0};
     double checkerSize_m = 1;
 };
+
+// Whether a material (this one or a scene file's) has a diffuse part, and whether it mirrors.
+bool hasDiffusePart(const auto& material) { return material.kind != MaterialKind::mirror; }
+bool hasMirrorPart(const auto& material) {
+    const glm::dvec3& r = material.reflectance;
+    return material.kind == MaterialKind::mirror || r.x > 0 || r.y > 0 || r.z > 0;
+}
 
 // toLight: unit vector towards the light. irradiance: on a surface that faces it, W/m^2 per channel.
 struct SurfaceLight {
