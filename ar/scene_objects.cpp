@@ -66,10 +66,9 @@ Material readMaterial(const std::string& file, const std::string& name, const To
         material.reflectance = reader.triple("reflectance", kUnitRange);
         return material;
     }
+    if (kind == "lambert") forbid({"specular", "exponent", "reflectance"});
     material.diffuse = reader.triple("diffuse", kUnitRange);
-    if (kind == "lambert") {
-        forbid({"specular", "exponent", "reflectance"});
-    } else {
+    if (kind == "blinn_phong") {
         material.kind = MaterialKind::blinnPhong;
         material.specular = reader.triple("specular", kUnitRange);
         material.exponent = reader.number("exponent", {1, kMaxExponent});
@@ -134,7 +133,7 @@ MeshObject readMesh(const std::string& file, const TomlValue& value, const std::
     mesh.twoSided = !reader.has("sides") || reader.choice("sides", kSides) == "both";
     if (!hasMirrorPart(material))
         for (const char* key : {"reflection", "cube_size"})
-            reader.forbid(key, "needs a material with 'reflectance'");
+            reader.forbid(key, "needs a mirror, a material with 'reflectance'");
     if (reader.has("reflection") && reader.choice("reflection", kReflections) == "scene")
         mesh.reflection = Reflection::scene;
     if (mesh.reflection != Reflection::scene) reader.forbid("cube_size", "needs reflection = \"scene\"");

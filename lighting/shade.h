@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lighting/geometry.h"
+#include "lighting/light_visibility.h"
 #include "lighting/surface_scene.h"
 #include "lighting/vertex_lighting.h"
 #include "lighting/view.h"
@@ -65,6 +66,8 @@ struct ShadeJob {
     const CubeMap<float>* environmentCube = nullptr;  // null: mirrors of the environment see its constant
     std::vector<const CubeMap<float>*>
         sceneCubes;  // for each instance: its cube map, or null for the environment
+    // What stands between the lights and the fragments; null: nothing.
+    const LightVisibility* visibility = nullptr;
     // For each instance what its vertices reflect, to be interpolated (lighting/vertex_lighting.h); null:
     // every fragment is lit by itself.
     const std::vector<VertexRadiance>* vertexRadiance = nullptr;

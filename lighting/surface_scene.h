@@ -34,10 +34,21 @@ bool hasMirrorPart(const auto& material) {
     return material.kind == MaterialKind::mirror || r.x > 0 || r.y > 0 || r.z > 0;
 }
 
-// toLight: unit vector towards the light. irradiance: on a surface that faces it, W/m^2 per channel.
+// directional: from infinitely far; point: in all directions from a place; spot: in a cone.
+enum class LightKind : uint8_t { directional, point, spot };
+
 struct SurfaceLight {
+    // Of a directional light: the unit vector towards it, and what a surface that faces it receives, W/m^2
+    // per channel.
     glm::dvec3 toLight{0, 1, 0};
     glm::dvec3 irradiance{0};
+
+    LightKind kind = LightKind::directional;
+    glm::dvec3 position_m{0};
+    glm::dvec3 intensity{0};  // W/sr per channel; of a spot along its axis
+    // Of a spot: the way the light travels, unit, and its cones (lighting/kernels/positional_light.glsl).
+    glm::dvec3 axis{0, -1, 0};
+    double cosInner = 1, cosOuter = 0;
 };
 
 // A mesh of the scene. normals and surface coordinates are per vertex; uv may be empty (then 0).

@@ -29,7 +29,8 @@ void lightIn(const SurfaceScene& scene, const SurfaceMaterial& material, const P
                 to[vertex(i)] = {numberLane(value.x, i), numberLane(value.y, i), numberLane(value.z, i)};
         };
         const vec3 n = kernels.unit3(load(placed.normals));
-        const vec3 toEye = kernels.unit3(kernels.sub3(Lighting::constant(eye), load(placed.positions)));
+        const vec3 position = load(placed.positions);
+        const vec3 toEye = kernels.unit3(kernels.sub3(Lighting::constant(eye), position));
         const auto coordinate = [&](int c) {
             return generateNumber<T>(
                 [&](int i) { return placed.mesh->uv_m.empty() ? 0.0 : placed.mesh->uv_m[vertex(i)][c]; });
@@ -37,8 +38,8 @@ void lightIn(const SurfaceScene& scene, const SurfaceMaterial& material, const P
         const vec3 surface = lighting.surfaceColour(material, coordinate(0), coordinate(1));
         for (size_t side = 0; side < radiance.sides.size(); side++) {
             const auto reflected =
-                lighting.reflected(material, kernels.scale3(n, T(side == 0 ? 1.0 : -1.0)), toEye, surface,
-                                   true, material.kind == MaterialKind::blinnPhong);
+                lighting.reflected(material, {position, kernels.scale3(n, T(side == 0 ? 1.0 : -1.0)), toEye},
+                                   surface, true, material.kind == MaterialKind::blinnPhong);
             store(reflected.diffuse, radiance.sides[side].diffuse);
             store(reflected.specular, radiance.sides[side].specular);
         }

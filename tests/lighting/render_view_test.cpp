@@ -352,6 +352,106 @@ TEST_CASE("LightPerVertexIsInterpolatedOverTheSurface") {
     }
 }
 
+// A white plate that faces a point light at distance h, d beside the foot: I cos / r^2 = I h / (h^2 +
+// d^2)^(3/2). Inside the inner cone of a spot the same, outside the outer cone nothing, between them 3 t^2 -
+// 2 t^3.
+TEST_CASE("PointAndSpotLightsFollowTheInverseSquare") {
+    constexpr double kBound = 4e-7;  // relative, of the values in float
+    SurfaceScene scene;
+    test::addObject(scene, test::rectangle({0, 0, -4}, {4, 0, 0}, {0, 4, 0}), test::lambertian(1));
+    SurfaceLight light;
+    light.kind = LightKind::point;
+    light.position_m = {0.5, -0.25, -2};
+    light.intensity = {kPi, 2 * kPi, 4 * kPi};
+    light.axis = {0, 0, -1};
+    light.cosInner = 0.9;
+    light.cosOuter = 0.8;
+    for (const LightKind kind : {LightKind::point, LightKind::spot}) {
+        light.kind = kind;
+        scene.lights = {light};
+        const auto result = render(scene, squareView(32), requestOf({ShadeOutput::diffuse}), "f64");
+        int parts[3] = {0, 0, 0};
+        for (int y = 0; y < 32; y++) {
+            for (int x = 0; x < 32; x++) {
+                const double px = 4 * ((x + 0.5) / 16 - 1), py = 4 * (1 - (y + 0.5) / 16);
+                const double dx = px - 0.5, dy = py + 0.25, h = 2;
+                const double r = std::sqrt(h * h + dx * dx + dy * dy);
+                const double t = std::clamp((h / r - 0.8) / (0.9 - 0.8), 0.0, 1.0);
+                const double part = kind == LightKind::point ? 1.0 : t * t * (3 - 2 * t);
+                parts[part == 0 ? 0 : part == 1 ? 2 : 1]++;
+                for (int c = 0; c < 3; c++)
+                    CHECK(result.images[ShadeOutput::diffuse].at(x, y, c) ==
+                          doctest::Approx(part * h / (r * r * r) * (1 << c)).epsilon(kBound));
+            }
+        }
+        if (kind == LightKind::spot)
+            for (const int count : parts) CHECK(count > 10);
+    }
+}
+
+// At the light itself, and with a cone that no point is in, the result is 0 and finite in every profile.
+TEST_CASE("ALightInTheSurfaceIsDarkAndFinite") {
+    SurfaceScene scene;
+    test::addObject(scene, test::rectangle({0, 0, -4}, {4, 0, 0}, {0, 4, 0}), test::lambertian(1));
+    SurfaceLight light;
+    light.kind = LightKind::point;
+    light.position_m = {0, 0, -4};
+    light.intensity = glm::dvec3(1);
+    scene.lights = {light};
+    for (const char* profile : kAllProfiles) {
+        const auto result = render(scene, squareView(7), requestOf({ShadeOutput::diffuse}), profile);
+        CHECK(result.images[ShadeOutput::diffuse].at(3, 3) == 0.0f);
+        for (const float v : result.images[ShadeOutput::diffuse].values()) CHECK(std::isfinite(v));
+    }
+}
+
+// A visibility of each point of 0, 1/2 and 1 takes that part of the light, and points and normals are those
+// of the surface.
+TEST_CASE("VisibilityScalesEachLightAndSeesTheSurface") {
+    struct Halves final : LightVisibility {
+        bool casts(size_t light) const override { return light == 1; }
+        void find(size_t, const LitPoints& points, std::span<double> visibility) const override {
+            for (size_t i = 0; i < points.size(); i++) {
+                if (points.instance[i] == std::numeric_limits<uint32_t>::max()) continue;
+                CHECK(points.position_m[2][i] == doctest::Approx(-4).epsilon(1e-6));
+                CHECK(points.faceNormal[2][i] == 1.0);
+                CHECK(points.normal[2][i] == 1.0);
+                CHECK(points.instance[i] == 0);
+                // Pixels of 1/8 metre at this distance.
+                CHECK(points.position_m[0][i] ==
+                      doctest::Approx((points.x_px[i] + 0.5) / 4 - 4).epsilon(1e-5));
+                visibility[i] = points.x_px[i] % 3 / 2.0;
+            }
+        }
+    };
+    SurfaceScene scene;
+    test::addObject(scene, test::rectangle({0, 0, -4}, {4, 0, 0}, {0, 4, 0}), test::lambertian(1));
+    for (const bool mirrored : {false, true}) {
+        if (mirrored) {
+            scene.instances[0].toWorld[0][0] = -1;
+            scene.instances[0].normalToWorld[0][0] = -1;
+        }
+        scene.lights = {{{0, 0, 1}, glm::dvec3(1)}};
+        const View view = squareView(32);
+        const Profile& profile = *findProfile("f32");
+        const auto placed = placeMeshes(scene, profile.vertex, 1);
+        const VisibleScene visible = findVisible(scene, placed, view, profile, 1, {});
+        const auto diffuse = [&](const LightVisibility* visibility) {
+            ShadeJob job = shadeJobOf(visible, scene, placed, view, profile, {});
+            job.request = requestOf({ShadeOutput::diffuse});
+            job.visibility = visibility;
+            return shade(job)[ShadeOutput::diffuse];
+        };
+        const Image<float> one = diffuse(nullptr);
+        scene.lights.push_back({{0, 0, 1}, glm::dvec3(1)});
+        const Halves halves;
+        const Image<float> both = diffuse(&halves);
+        for (int y = 0; y < 32; y++)
+            for (int x = 0; x < 32; x++)
+                CHECK(both.at(x, y) == one.at(x, y) + one.at(x, y) * static_cast<float>(x % 3) / 2);
+    }
+}
+
 // A light that shines along the normals of a flat surface is the same at every vertex and pixel.
 TEST_CASE("LightPerVertexOfAFlatSurfaceIsThatPerPixel") {
     SurfaceScene scene = test::box(2, 3, 4);
