@@ -185,7 +185,7 @@ TEST_CASE("PlacedLightsAreReadAsWritten") {
                                    cones);
     };
     CHECK(refused("outer_deg = 90\n").find("'outer_deg'") != std::string::npos);
-    CHECK(refused("inner_deg = 20\nouter_deg = 20\n").find("'inner_deg' must be at least") !=
+    CHECK(refused("inner_deg = 20\nouter_deg = 20\n").find("must be at least 0.01 below 'outer_deg'") !=
           std::string::npos);
 }
 
