@@ -1,20 +1,26 @@
 // Compiled once per level.
+#include "probes/latlong_moments_over.h"
 #include "probes/probe_passes.h"
 #include "raster/fragment_numbers.h"
 
 namespace etalon {
 
 ETALON_DECLARE_ARITHMETICS(MappingPasses, mappingPasses)
+ETALON_DECLARE_ARITHMETICS(HarmonicsPasses, harmonicsPasses)
+ETALON_DECLARE_ARITHMETICS(IrradiancePasses, irradiancePasses)
 
 namespace ETALON_LEVEL {
 namespace {
 
 ETALON_PASSES_IN_LANES(MappingPasses, mappingPasses)
+ETALON_PASSES_IN_LANES(HarmonicsPasses, harmonicsPasses)
+ETALON_PASSES_IN_LANES(IrradiancePasses, irradiancePasses)
 
 }  // namespace
 
 const ProbePasses& probePasses() {
-    static const ProbePasses passes = {mappingPasses_inLanes};
+    static const ProbePasses passes = {mappingPasses_inLanes, harmonicsPasses_inLanes,
+                                       irradiancePasses_inLanes, projectLatLongOver<Native<double>>};
     return passes;
 }
 
