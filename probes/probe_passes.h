@@ -3,6 +3,8 @@
 
 #include "probes/energy_passes.h"
 #include "probes/light_passes.h"
+#include "probes/harmonics_passes.h"
+#include "probes/irradiance_passes.h"
 #include "probes/mapping_passes.h"
 
 namespace etalon {
@@ -11,7 +13,11 @@ namespace etalon {
 struct ProbePasses {
     LightPasses (*light)(FragmentArithmetic arithmetic);
     MappingPasses (*mapping)(FragmentArithmetic arithmetic);
+    HarmonicsPasses (*harmonics)(FragmentArithmetic arithmetic);
+    IrradiancePasses (*irradiance)(FragmentArithmetic arithmetic);
     EnergyPasses energy;  // in double
+    // Of a lat-long probe, in double and about the image's axis (probes/latlong_moments_over.h).
+    SphericalHarmonics (*projectLatLong)(const Probe& probe, int degree, int threads);
 };
 
 // Those of the active level.

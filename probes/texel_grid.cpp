@@ -7,12 +7,42 @@
 
 namespace etalon {
 
-double cubeTexelSolidAngle_sr(int size, int x, int y) {
-    // Of the corner between the face's middle and the point (s, t) of the face's plane.
-    const auto corner = [&](int i, int j) {
-        const double s = (2.0 * i - size) / size, t = (2.0 * j - size) / size;
-        return atan2Of(s * t, std::sqrt(s * s + (t * t + 1.0)));
+namespace {
+
+// The solid angle between the middle of a cube face and the point (i, j) of its corners of texels, with the
+// signs of both distances from the middle.
+double cornerSolidAngle_sr(int size, int i, int j) {
+    const double s = (2.0 * i - size) / size, t = (2.0 * j - size) / size;
+    return atan2Of(s * t, std::sqrt(s * s + (t * t + 1.0)));
+}
+
+// Of all texels of a face. Corners are odd in both directions: a quarter of them is computed.
+std::vector<double> cubeSolidAngles_sr(int size) {
+    const auto across = static_cast<size_t>(size) + 1;
+    std::vector<double> corners(across * across);
+    const auto cornerOf = [&](int i, int j) -> double& {
+        return corners[static_cast<size_t>(j) * across + static_cast<size_t>(i)];
     };
+    for (int j = size; 2 * j >= size; j--)
+        for (int i = size; 2 * i >= size; i--) {
+            const double corner = cornerSolidAngle_sr(size, i, j);
+            cornerOf(size - i, size - j) = corner;
+            cornerOf(size - i, j) = -corner;
+            cornerOf(i, size - j) = -corner;
+            cornerOf(i, j) = corner;
+        }
+    std::vector<double> texels;
+    for (int y = 0; y < size; y++)
+        for (int x = 0; x < size; x++)
+            texels.push_back((cornerOf(x + 1, y + 1) - cornerOf(x, y + 1)) -
+                             (cornerOf(x + 1, y) - cornerOf(x, y)));
+    return texels;
+}
+
+}  // namespace
+
+double cubeTexelSolidAngle_sr(int size, int x, int y) {
+    const auto corner = [&](int i, int j) { return cornerSolidAngle_sr(size, i, j); };
     return (corner(x + 1, y + 1) - corner(x, y + 1)) - (corner(x + 1, y) - corner(x, y));
 }
 
@@ -24,9 +54,7 @@ TexelGrid::TexelGrid(const ProbeShape& shape) : shape_(shape) {
             return;
         case Mapping::cube:
             ETALON_CHECK(shape.width == shape.height, "faces of {}x{}", shape.width, shape.height);
-            for (int y = 0; y < shape.height; y++)
-                for (int x = 0; x < shape.width; x++)
-                    cubeSolidAngle_sr_.push_back(cubeTexelSolidAngle_sr(shape.width, x, y));
+            cubeSolidAngle_sr_ = cubeSolidAngles_sr(shape.width);
             return;
         case Mapping::angular:
         case Mapping::mirrorBall:

@@ -1,0 +1,88 @@
+#include "probes/irradiance.h"
+
+#include "numeric/check.h"
+#include "probes/harmonics_lobes.h"
+#include "probes/irradiance_passes.h"
+#include "probes/texel_grid.h"
+
+namespace etalon {
+
+std::vector<glm::dvec3> irradianceAt(const Probe& probe, std::span<const glm::dvec3> normals,
+                                     FragmentArithmetic arithmetic, int threads) {
+    return irradiancePasses(arithmetic).irradianceAt(probe, normals, threads);
+}
+
+std::vector<glm::dvec3> texelDirections(const ProbeShape& shape) {
+    const TexelGrid grid(shape);
+    std::vector<glm::dvec3> directions;
+    for (int layer = 0; layer < shape.layers(); layer++)
+        for (int y = 0; y < shape.height; y++)
+            for (int x = 0; x < shape.width; x++) directions.push_back(grid.direction(layer, x, y));
+    return directions;
+}
+
+Probe probeOfValues(const ProbeShape& shape, std::span<const glm::dvec3> values, const Probe& like) {
+    Probe result;
+    result.shape = shape;
+    result.position_m = like.position_m;
+    const auto texels = static_cast<size_t>(shape.width) * static_cast<size_t>(shape.height);
+    const auto layers = static_cast<size_t>(shape.layers());
+    ETALON_CHECK(values.size() == texels * layers, "{} values for {}x{}x{} texels", values.size(), layers,
+                 shape.width, shape.height);
+    for (size_t layer = 0; layer < layers; layer++) {
+        Image<float>& image = result.radiance.emplace_back(shape.width, shape.height, 3);
+        for (int c = 0; c < 3; c++)
+            for (size_t i = 0; i < texels; i++)
+                image.plane(c)[i] = static_cast<float>(values[layer * texels + i][c]);
+    }
+    return result;
+}
+
+Probe irradianceProbe(const Probe& probe, const ProbeShape& shape, FragmentArithmetic arithmetic,
+                      int threads) {
+    return probeOfValues(shape, irradianceAt(probe, texelDirections(shape), arithmetic, threads), probe);
+}
+
+Probe irradianceProbe(const SphericalHarmonics& radiance, const ProbeShape& shape, const Probe& like,
+                      FragmentArithmetic arithmetic, int threads) {
+    return probeOfValues(
+        shape,
+        evaluateHarmonics(irradianceOfHarmonics(radiance), texelDirections(shape), arithmetic, threads),
+        like);
+}
+
+Probe blurredDiffuseMap(const Probe& cube, int radius, double sigma_px, FragmentArithmetic arithmetic,
+                        int threads) {
+    checkProbe(cube);
+    ETALON_CHECK(cube.shape.mapping == Mapping::cube, "mapping {}", static_cast<int>(cube.shape.mapping));
+    Probe map = cube;
+    for (Image<float>& face : map.radiance)
+        face = irradiancePasses(arithmetic).blur(face, radius, sigma_px, threads);
+    map.distance_m.clear();
+    return map;
+}
+
+double irradianceErrorBound(FragmentArithmetic arithmetic) {
+    // Directions, solid angle, flux, cosine and term: about ten roundings, then the longest way through the
+    // sums, 32 texels and 15 pairs for 2^20 texels. Roundings of one sign are the worst; to nearest they
+    // average.
+    switch (arithmetic) {
+        case FragmentArithmetic::truth:
+        case FragmentArithmetic::fp64:
+            return 1e-14;
+        case FragmentArithmetic::fp32:
+        case FragmentArithmetic::fp32Flush:
+        case FragmentArithmetic::fp32Nv40:
+            return 4e-6;
+        case FragmentArithmetic::fp16:
+        case FragmentArithmetic::fp16Nv40:
+            return 3e-2;
+        case FragmentArithmetic::bf16:
+            return 0.25;
+        case FragmentArithmetic::fp24R300:
+            return 1e-3;
+    }
+    return 0;
+}
+
+}  // namespace etalon

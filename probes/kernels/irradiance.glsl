@@ -1,0 +1,9 @@
+// The irradiance of a plane, summed over the texels of a probe. Specified in probes/irradiance.h.
+// needs: numeric/kernels/vector.glsl
+// needs: probes/kernels/flux_scope.glsl
+// needs: probes/kernels/flux.glsl
+
+vec3 addIrradiance(vec3 sum, vec3 normal, vec3 direction, vec3 flux) {
+    real cosine = dot3(normal, direction);
+    return add3(sum, scale3(flux, select(cosine > smallestTerm(), cosine, real(0.0))));
+}
