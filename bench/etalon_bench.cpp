@@ -10,6 +10,8 @@
 #include "bench/measure.h"
 #include "bench/passes.h"
 #include "numeric/isa.h"
+#include "probes/light_passes.h"
+#include "probes/median_cut.h"
 #include "raster/blur.h"
 
 namespace etalon::bench {
@@ -148,6 +150,42 @@ void addCubeFromLatLong(const Way& way) {
     });
 }
 
+// The double table alone, and table, cuts and energies of 256 lights. Touches the probe; the table is written
+// as well.
+void addLights(const Way& way) {
+    const Amount amount{.pixels = static_cast<double>(kProbeWidth) * kProbeHeight,
+                        .bytes_touched = size_t{kProbeWidth} * kProbeHeight * kRadiance_bytes};
+    add("energy-table/4096", way, [=](benchmark::State& state) {
+        const Probe probe = probeInput();
+        const auto weights = texelWeights(kProbeWidth, kProbeHeight, TexelWeight::exact);
+        measure(state, amount, [&] { return EnergyTable(probe.radiance[0], weights, way.threads).total(); });
+    });
+    add("lights256-of-probe/4096", way, [=](benchmark::State& state) {
+        const Probe probe = probeInput();
+        measure(state, amount,
+                [&] { return medianCutLights(probe, {.log2Count = kLog2Lights}, way.threads); });
+    });
+}
+
+// Irradiance of 256 lights over the directions of a lat-long image; pixels are pairs of direction and light.
+void addLightIrradiance(const Way& way) {
+    add("irradiance-of-lights/256", way, [=](benchmark::State& state) {
+        constexpr int kShownWidth = 256, kShownHeight = 128;
+        Probe probe;
+        probe.shape = {Mapping::latLong, kLatLongWidth, kLatLongHeight};
+        probe.radiance.push_back(latLongInput());
+        const auto lights = medianCutLights(probe, {.log2Count = kLog2Lights}).lights;
+        const LightPasses passes = lightPasses(findProfile(way.profile)->fragment);
+        const Amount amount{
+            .pixels = static_cast<double>(kShownWidth) * kShownHeight * static_cast<double>(lights.size()),
+            .bytes_touched = size_t{kShownWidth} * kShownHeight * 3 * sizeof(double)};
+        measure(state, amount, [&] {
+            return passes.irradianceOfLights(lights, {Mapping::latLong, kShownWidth, kShownHeight},
+                                             way.threads);
+        });
+    });
+}
+
 void addAll() {
     for (const int threads : {1, 2}) {
         const Way way{.threads = threads};
@@ -162,6 +200,8 @@ void addAll() {
         addCube(way);
         addBlur(way);
         addCubeFromLatLong(way);
+        addLights(way);
+        addLightIrradiance(way);
     }
     for (const IsaLevel level : usableIsaLevels()) {
         const Way way{.level = level};
@@ -169,12 +209,15 @@ void addAll() {
         addShaded("1k-small", 64, way);
         addBlur(way);
         addCubeFromLatLong(way);
+        addLights(way);
+        addLightIrradiance(way);
     }
     addShaded("1k-small", 64, {});
     for (const char* profile : {"f64", "r300-fp24", "nv40-fp16", "fp16", "bf16"}) {
         addShaded("70k", 1, {.profile = profile});
         addShaded("1k-small", 1, {.profile = profile});
         addCubeFromLatLong({.profile = profile});
+        addLightIrradiance({.profile = profile});
     }
     addShaded("1k-small", 1, {});
     addShaded("1k-small", 1, {.profile = "truth"});

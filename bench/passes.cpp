@@ -57,4 +57,11 @@ Image<float> blurInput() { return randomImage(kBlurSize, kBlurSize, 1); }
 
 Image<float> latLongInput() { return randomImage(kLatLongWidth, kLatLongHeight, 3); }
 
+Probe probeInput() {
+    Probe probe;
+    probe.shape = {Mapping::latLong, kProbeWidth, kProbeHeight};
+    probe.radiance.push_back(randomImage(kProbeWidth, kProbeHeight, 3));
+    return probe;
+}
+
 }  // namespace etalon::bench

@@ -3,6 +3,7 @@
 
 #include "bench/workloads.h"
 #include "lighting/render_view.h"
+#include "probes/probe.h"
 
 namespace etalon::bench {
 
@@ -37,5 +38,9 @@ Image<float> blurInput();
 // The lat-long image that becomes a cube map: three channels of random texels.
 inline constexpr int kLatLongWidth = 1024, kLatLongHeight = 512, kLatLongCubeSize = 256;
 Image<float> latLongInput();
+
+// The lat-long probe that becomes lights: random texels.
+inline constexpr int kProbeWidth = 4096, kProbeHeight = 2048, kLog2Lights = 8;
+Probe probeInput();
 
 }  // namespace etalon::bench
