@@ -51,11 +51,12 @@ struct FragmentNumber<FragmentArithmetic::fp24R300> {
 }  // namespace etalon
 
 // Expands X(arithmetic, ...) for each arithmetic but truth, which has no lanes.
-#define ETALON_FOR_EACH_LANE_ARITHMETIC(X, ...)                                                      \
-    X(fp64, __VA_ARGS__)                                                                             \
-    X(fp32, __VA_ARGS__)                                                                             \
-    X(fp32Flush, __VA_ARGS__) X(fp32Nv40, __VA_ARGS__) X(fp16, __VA_ARGS__) X(fp16Nv40, __VA_ARGS__) \
-        X(bf16, __VA_ARGS__) X(fp24R300, __VA_ARGS__)
+#define ETALON_FOR_EACH_LANE_ARITHMETIC(X, ...) \
+    X(fp64, __VA_ARGS__)                        \
+    X(fp32, __VA_ARGS__)                        \
+    X(fp32Flush, __VA_ARGS__)                   \
+    X(fp32Nv40, __VA_ARGS__)                    \
+    X(fp16, __VA_ARGS__) X(fp16Nv40, __VA_ARGS__) X(bf16, __VA_ARGS__) X(fp24R300, __VA_ARGS__)
 
 // Declares what the made sources define. Stands in namespace etalon.
 #define ETALON_DECLARE_ARITHMETICS(Passes, function) \
