@@ -148,6 +148,37 @@ void addCubeFromLatLong(const Way& way) {
     });
 }
 
+// Touches the texels of the source and of the result.
+void addConversion(const std::string& name, const ProbeShape& from, const ProbeShape& to, const Way& way) {
+    add("convert/" + name, way, [=](benchmark::State& state) {
+        const auto texels = [](const ProbeShape& shape) {
+            return static_cast<size_t>(shape.layers()) * static_cast<size_t>(shape.width) *
+                   static_cast<size_t>(shape.height);
+        };
+        const Probe source = probeInput(from);
+        const FragmentArithmetic arithmetic = findProfile(way.profile)->fragment;
+        const Amount amount{.pixels = static_cast<double>(texels(to)),
+                            .bytes_touched = (texels(from) + texels(to)) * kRadiance_bytes};
+        Probe result;
+        convertProbe(result, source, {to}, arithmetic, way.threads);
+        measure(state, amount, [&] {
+            convertProbe(result, source, {to}, arithmetic, way.threads);
+            return result.radiance[0].values().data();
+        });
+    });
+}
+void addConversions(const Way& way) {
+    addConversion("latlong-cube", kLargeLatLong, kLargeCube, way);
+    addConversion("cube-latlong", kLargeCube, kLargeLatLong, way);
+    addConversion("ball-latlong", kLargeBall, kLargeLatLong, way);
+    addConversion("near-ball-latlong", kLargeNearBall, kLargeLatLong, way);
+    addConversion("angular-latlong", kLargeAngular, kLargeLatLong, way);
+    addConversion("octahedral-latlong", kLargeOctahedral, kLargeLatLong, way);
+    addConversion("latlong-ball", kLargeLatLong, kLargeBall, way);
+    addConversion("latlong-angular", kLargeLatLong, kLargeAngular, way);
+    addConversion("latlong-octahedral", kLargeLatLong, kLargeOctahedral, way);
+}
+
 void addAll() {
     for (const int threads : {1, 2}) {
         const Way way{.threads = threads};
@@ -162,6 +193,7 @@ void addAll() {
         addCube(way);
         addBlur(way);
         addCubeFromLatLong(way);
+        addConversions(way);
     }
     for (const IsaLevel level : usableIsaLevels()) {
         const Way way{.level = level};
@@ -169,6 +201,8 @@ void addAll() {
         addShaded("1k-small", 64, way);
         addBlur(way);
         addCubeFromLatLong(way);
+        addConversion("latlong-cube", kLargeLatLong, kLargeCube, way);
+        addConversion("cube-latlong", kLargeCube, kLargeLatLong, way);
     }
     addShaded("1k-small", 64, {});
     for (const char* profile : {"f64", "r300-fp24", "nv40-fp16", "fp16", "bf16"}) {

@@ -54,11 +54,11 @@ class LanedDirections {
                                        T(coordinateOf(y, j, shape_.height, parts_)), settings_);
     }
 
-    // The weights of the parts of a block of rows.
+    // The weights of the parts of a block of rows, where there are several.
     class Weights {
       public:
         Weights(const LanedDirections& of, int y0, int y1) : of_(of), y0_(y0) {
-            if (of.shape_.mapping != Mapping::cube) return;
+            if (of.shape_.mapping != Mapping::cube || of.parts_ == 1) return;
             const int parts = of.parts_, size = of.shape_.width * parts;
             for (int row = y0 * parts; row < y1 * parts; row++) {
                 const std::vector<double> solidAngle_sr = cubeRowSolidAngles_sr(size, row);
@@ -93,7 +93,7 @@ class LanedDirections {
 };
 
 template <class T>
-void convertImages(const ConversionJob& job, ConvertedImages& result) {
+void convertImages(const ConversionJob& job, Probe& result) {
     using Kernel = ConversionKernel<T>;
     using vec3 = typename Kernel::vec3;
     constexpr int kWidth = NumberTraits<T>::lanes;
