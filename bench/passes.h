@@ -41,8 +41,9 @@ Image<float> latLongInput();
 
 // A probe of random texels, and the shapes that are converted: 6 to 8 million texels each.
 Probe probeInput(const ProbeShape& shape);
-inline constexpr ProbeShape kLargeLatLong{Mapping::latLong, 4096, 2048}, kLargeCube{Mapping::cube, 1024, 1024},
-    kLargeAngular{Mapping::angular, 2048, 2048}, kLargeBall{Mapping::mirrorBall, 2048, 2048},
-    kLargeNearBall{Mapping::mirrorBall, 2048, 2048, 20}, kLargeOctahedral{Mapping::octahedral, 2048, 2048};
+inline constexpr ProbeShape kLargeLatLong{Mapping::latLong, 4096, 2048},
+    kLargeCube{Mapping::cube, 1024, 1024}, kLargeAngular{Mapping::angular, 2048, 2048},
+    kLargeBall{Mapping::mirrorBall, 2048, 2048}, kLargeNearBall{Mapping::mirrorBall, 2048, 2048, 20},
+    kLargeOctahedral{Mapping::octahedral, 2048, 2048};
 
 }  // namespace etalon::bench
