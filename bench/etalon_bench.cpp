@@ -153,15 +153,15 @@ void addCubeFromLatLong(const Way& way) {
 // The double table alone, and table, cuts and energies of 256 lights. Touches the probe; the table is written
 // as well.
 void addLights(const Way& way) {
-    const Amount amount{.pixels = static_cast<double>(kProbeWidth) * kProbeHeight,
-                        .bytes_touched = size_t{kProbeWidth} * kProbeHeight * kRadiance_bytes};
+    constexpr size_t kTexels = static_cast<size_t>(kLargeLatLong.width) * kLargeLatLong.height;
+    const Amount amount{.pixels = static_cast<double>(kTexels), .bytes_touched = kTexels * kRadiance_bytes};
     add("energy-table/4096", way, [=](benchmark::State& state) {
-        const Probe probe = probeInput();
-        const auto weights = texelWeights(kProbeWidth, kProbeHeight, TexelWeight::exact);
+        const Probe probe = probeInput(kLargeLatLong);
+        const auto weights = texelWeights(kLargeLatLong.width, kLargeLatLong.height, TexelWeight::exact);
         measure(state, amount, [&] { return EnergyTable(probe.radiance[0], weights, way.threads).total(); });
     });
     add("lights256-of-probe/4096", way, [=](benchmark::State& state) {
-        const Probe probe = probeInput();
+        const Probe probe = probeInput(kLargeLatLong);
         measure(state, amount,
                 [&] { return medianCutLights(probe, {.log2Count = kLog2Lights}, way.threads); });
     });
@@ -185,52 +185,80 @@ void addLightIrradiance(const Way& way) {
         });
     });
 }
+// Touches the texels of the source and of the result.
+void addConversion(const std::string& name, const ProbeShape& from, const ProbeShape& to, const Way& way) {
+    add("convert/" + name, way, [=](benchmark::State& state) {
+        const auto texels = [](const ProbeShape& shape) {
+            return static_cast<size_t>(shape.layers()) * static_cast<size_t>(shape.width) *
+                   static_cast<size_t>(shape.height);
+        };
+        const Probe source = probeInput(from);
+        const FragmentArithmetic arithmetic = findProfile(way.profile)->fragment;
+        const Amount amount{.pixels = static_cast<double>(texels(to)),
+                            .bytes_touched = (texels(from) + texels(to)) * kRadiance_bytes};
+        Probe result;
+        convertProbe(result, source, {to}, arithmetic, way.threads);
+        convertProbe(result, source, {to}, arithmetic, way.threads);
+        return result.radiance[0].values().data();
+        void addConversions(const Way& way) {
+            addConversion("latlong-cube", kLargeLatLong, kLargeCube, way);
+            addConversion("cube-latlong", kLargeCube, kLargeLatLong, way);
+            addConversion("ball-latlong", kLargeBall, kLargeLatLong, way);
+            addConversion("near-ball-latlong", kLargeNearBall, kLargeLatLong, way);
+            addConversion("angular-latlong", kLargeAngular, kLargeLatLong, way);
+            addConversion("octahedral-latlong", kLargeOctahedral, kLargeLatLong, way);
+            addConversion("latlong-ball", kLargeLatLong, kLargeBall, way);
+            addConversion("latlong-angular", kLargeLatLong, kLargeAngular, way);
+            addConversion("latlong-octahedral", kLargeLatLong, kLargeOctahedral, way);
 
-void addAll() {
-    for (const int threads : {1, 2}) {
-        const Way way{.threads = threads};
-        for (const char* name : {"1k", "70k", "870k", "large", "sub-pixel"}) {
-            addDepth(name, way);
-            addShaded(name, 1, way);
-        }
-        for (const char* name : {"1k", "70k", "870k"}) addShaded(name, 64, way);
-        addDepth("70k", way, 4);
-        addShaded("70k", 1, way, 4);
-        addFill(way);
-        addCube(way);
-        addBlur(way);
-        addCubeFromLatLong(way);
-        addLights(way);
-        addLightIrradiance(way);
-    }
-    for (const IsaLevel level : usableIsaLevels()) {
-        const Way way{.level = level};
-        addDepth("70k", way);
-        addShaded("1k-small", 64, way);
-        addBlur(way);
-        addCubeFromLatLong(way);
-        addLights(way);
-        addLightIrradiance(way);
-    }
-    addShaded("1k-small", 64, {});
-    for (const char* profile : {"f64", "r300-fp24", "nv40-fp16", "fp16", "bf16"}) {
-        addShaded("70k", 1, {.profile = profile});
-        addShaded("1k-small", 1, {.profile = profile});
-        addCubeFromLatLong({.profile = profile});
-        addLightIrradiance({.profile = profile});
-    }
-    addShaded("1k-small", 1, {});
-    addShaded("1k-small", 1, {.profile = "truth"});
-}
+            void addAll() {
+                for (const int threads : {1, 2}) {
+                    const Way way{.threads = threads};
+                    for (const char* name : {"1k", "70k", "870k", "large", "sub-pixel"}) {
+                        addDepth(name, way);
+                        addShaded(name, 1, way);
+                    }
+                    for (const char* name : {"1k", "70k", "870k"}) addShaded(name, 64, way);
+                    addDepth("70k", way, 4);
+                    addShaded("70k", 1, way, 4);
+                    addFill(way);
+                    addCube(way);
+                    addBlur(way);
+                    addCubeFromLatLong(way);
+                    addLights(way);
+                    addLightIrradiance(way);
+                    addConversions(way);
+                }
+                for (const IsaLevel level : usableIsaLevels()) {
+                    const Way way{.level = level};
+                    addDepth("70k", way);
+                    addShaded("1k-small", 64, way);
+                    addBlur(way);
+                    addCubeFromLatLong(way);
+                    addLights(way);
+                    addLightIrradiance(way);
+                    addConversion("latlong-cube", kLargeLatLong, kLargeCube, way);
+                    addConversion("cube-latlong", kLargeCube, kLargeLatLong, way);
+                }
+                addShaded("1k-small", 64, {});
+                for (const char* profile : {"f64", "r300-fp24", "nv40-fp16", "fp16", "bf16"}) {
+                    addShaded("70k", 1, {.profile = profile});
+                    addShaded("1k-small", 1, {.profile = profile});
+                    addCubeFromLatLong({.profile = profile});
+                    addLightIrradiance({.profile = profile});
+                }
+                addShaded("1k-small", 1, {});
+                addShaded("1k-small", 1, {.profile = "truth"});
+            }
 
-}  // namespace
+        }  // namespace
 }  // namespace etalon::bench
 
 int main(int argc, char** argv) {
-    benchmark::Initialize(&argc, argv);
-    if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
-    etalon::bench::addAll();
-    benchmark::RunSpecifiedBenchmarks();
-    benchmark::Shutdown();
-    return 0;
+        benchmark::Initialize(&argc, argv);
+        if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+        etalon::bench::addAll();
+        benchmark::RunSpecifiedBenchmarks();
+        benchmark::Shutdown();
+        return 0;
 }

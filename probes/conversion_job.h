@@ -27,10 +27,4 @@ struct ConversionJob {
     int threads = 0;
 };
 
-// Images of the target's shape; distance_m and valid are empty or have all layers.
-struct ConvertedImages {
-    std::vector<Image<float>> radiance, distance_m;
-    std::vector<Image<uint8_t>> valid;
-};
-
 }  // namespace etalon

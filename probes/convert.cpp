@@ -21,16 +21,21 @@ void checkLayers(const std::vector<Image<Pixel>>& layers, const ProbeShape& shap
             layer.channels(), shape.width, shape.height, channels);
 }
 
+// Images of the shape; those that fit are kept, with whatever they hold.
 template <class Pixel>
-std::vector<Image<Pixel>> layersOf(const ProbeShape& shape, int channels) {
-    return {static_cast<size_t>(shape.layers()), Image<Pixel>(shape.width, shape.height, channels)};
+void fitLayers(std::vector<Image<Pixel>>& layers, const ProbeShape& shape, int channels) {
+    layers.resize(static_cast<size_t>(shape.layers()));
+    for (Image<Pixel>& layer : layers)
+        if (layer.width() != shape.width || layer.height() != shape.height || layer.channels() != channels)
+            layer = Image<Pixel>(shape.width, shape.height, channels);
 }
 
 // 1 for texels with radiance, else 0; empty if all have it.
 std::vector<Image<float>> shownTexels(const Probe& probe) {
     const bool disc = isDisc(probe.shape.mapping);
     if (!disc && probe.valid.empty()) return {};
-    std::vector<Image<float>> shown = layersOf<float>(probe.shape, 1);
+    std::vector<Image<float>> shown;
+    fitLayers(shown, probe.shape, 1);
     for (size_t layer = 0; layer < shown.size(); layer++)
         for (int y = 0; y < probe.shape.height; y++)
             for (int x = 0; x < probe.shape.width; x++) {
@@ -73,6 +78,14 @@ void checkProbe(const Probe& probe) {
 
 Probe convertProbe(const Probe& source, const ProbeConversion& conversion, FragmentArithmetic arithmetic,
                    int threads) {
+    Probe result;
+    convertProbe(result, source, conversion, arithmetic, threads);
+    return result;
+}
+
+void convertProbe(Probe& result, const Probe& source, const ProbeConversion& conversion,
+                  FragmentArithmetic arithmetic, int threads) {
+    ETALON_CHECK(&result != &source, "the result is the source");
     checkProbe(source);
     checkShape(conversion.shape);
     ETALON_CHECK(conversion.samplesPerAxis >= 1 && conversion.samplesPerAxis <= kMaxSamplesPerAxis,
@@ -94,18 +107,24 @@ Probe convertProbe(const Probe& source, const ProbeConversion& conversion, Fragm
     job.fractionBits = conversion.fractionBits;
     job.threads = threads;
 
-    ConvertedImages images;
-    images.radiance = layersOf<float>(conversion.shape, 3);
-    if (!source.distance_m.empty()) images.distance_m = layersOf<float>(conversion.shape, 1);
-    if (job.hasBlindSpots) images.valid = layersOf<uint8_t>(conversion.shape, 1);
-    mappingPasses(arithmetic).convertImages(job, images);
+    result.shape = conversion.shape;
+    result.rotation = conversion.rotation;
+    result.position_m = source.position_m;
+    fitLayers(result.radiance, conversion.shape, 3);
+    if (source.distance_m.empty())
+        result.distance_m.clear();
+    else
+        fitLayers(result.distance_m, conversion.shape, 1);
+    if (job.hasBlindSpots)
+        fitLayers(result.valid, conversion.shape, 1);
+    else
+        result.valid.clear();
+    mappingPasses(arithmetic).convertImages(job, result);
 
     const auto isWhole = [](const Image<uint8_t>& layer) {
         return std::all_of(layer.values().begin(), layer.values().end(), [](uint8_t v) { return v != 0; });
     };
-    if (std::all_of(images.valid.begin(), images.valid.end(), isWhole)) images.valid.clear();
-    return {conversion.shape,        std::move(images.radiance), std::move(images.distance_m),
-            std::move(images.valid), conversion.rotation,        source.position_m};
+    if (std::all_of(result.valid.begin(), result.valid.end(), isWhole)) result.valid.clear();
 }
 
 Probe probeOf(const CubeMap<float>& cube) {

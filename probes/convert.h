@@ -47,6 +47,11 @@ struct ProbeConversion {
 Probe convertProbe(const Probe& source, const ProbeConversion& conversion,
                    FragmentArithmetic arithmetic = FragmentArithmetic::fp32, int threads = 0);
 
+// The same into a probe, whose images are written over where they have the right sizes: repeated conversions
+// need no new memory. The result is not the source.
+void convertProbe(Probe& result, const Probe& source, const ProbeConversion& conversion,
+                  FragmentArithmetic arithmetic = FragmentArithmetic::fp32, int threads = 0);
+
 // Layers, sizes and channels are as the shape says; PreconditionError with what is wrong otherwise.
 void checkProbe(const Probe& probe);
 

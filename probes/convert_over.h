@@ -54,11 +54,11 @@ class LanedDirections {
                                        T(coordinateOf(y, j, shape_.height, parts_)), settings_);
     }
 
-    // The weights of the parts of a block of rows.
+    // The weights of the parts of a block of rows, where there are several.
     class Weights {
       public:
         Weights(const LanedDirections& of, int y0, int y1) : of_(of), y0_(y0) {
-            if (of.shape_.mapping != Mapping::cube) return;
+            if (of.shape_.mapping != Mapping::cube || of.parts_ == 1) return;
             const int parts = of.parts_, size = of.shape_.width * parts;
             for (int row = y0 * parts; row < y1 * parts; row++) {
                 const std::vector<double> solidAngle_sr = cubeRowSolidAngles_sr(size, row);
@@ -92,8 +92,23 @@ class LanedDirections {
     std::optional<LanedColumns<T>> first_, second_;
 };
 
+// The columns [first, last) of a row whose texels show a direction.
+struct ShownColumns {
+    int first = 0, last = 0;
+};
+inline std::vector<ShownColumns> shownColumnsOf(const ProbeShape& shape) {
+    std::vector<ShownColumns> rows(static_cast<size_t>(shape.height));
+    for (int y = 0; y < shape.height; y++) {
+        int first = 0;
+        while (first < shape.width && !showsDirection(shape, first, y)) first++;
+        // Discs are symmetrical.
+        rows[static_cast<size_t>(y)] = {first, shape.width - first};
+    }
+    return rows;
+}
+
 template <class T>
-void convertImages(const ConversionJob& job, ConvertedImages& result) {
+void convertImages(const ConversionJob& job, Probe& result) {
     using Kernel = ConversionKernel<T>;
     using vec3 = typename Kernel::vec3;
     constexpr int kWidth = NumberTraits<T>::lanes;
@@ -115,6 +130,7 @@ void convertImages(const ConversionJob& job, ConvertedImages& result) {
         turn[static_cast<size_t>(row)] = {T(job.turn[0][row]), T(job.turn[1][row]), T(job.turn[2][row])};
 
     const int parts = job.resampling == Resampling::area ? job.samplesPerAxis : 1;
+    const std::vector<ShownColumns> shownColumns = shownColumnsOf(job.target);
     const LanedDirections<T> centres(job.target, 1), directions(job.target, parts);
     parallelForRowBlocks(job.target.height, job.threads, [&](int y0, int y1) {
         Kernel kernel;
@@ -150,15 +166,19 @@ void convertImages(const ConversionJob& job, ConvertedImages& result) {
                                                     kernel.sampleProbe(radiance, shown, middle(), sampling));
                     }
                     if (job.hasBlindSpots) {
-                        const T isOnImage = generateNumber<T>([&](int lane) {
-                            const int x = static_cast<int>(first) + (lane < active ? lane : active - 1);
-                            return showsDirection(job.target, x, y) ? 1.0 : 0.0;
-                        });
+                        const ShownColumns& on = shownColumns[static_cast<size_t>(y)];
+                        const int from = static_cast<int>(first), to = from + active;
+                        T isOnImage(1.0);
+                        if (from < on.first || to > on.last)
+                            isOnImage = generateNumber<T>([&](int lane) {
+                                return from + lane >= on.first && from + lane < on.last ? 1.0 : 0.0;
+                            });
                         sample = kernel.blackIfHidden(sample, isOnImage);
-                        const T isValid = kernel.asNumber(sample.isShown);
+                        std::array<float, kWidth> isValid;
+                        TexelFetch<T>::store(kernel.asNumber(sample.isShown), isValid.data(), active);
+                        uint8_t* valid = result.valid[l].row(y).data() + first;
                         for (int lane = 0; lane < active; lane++)
-                            result.valid[l].at(static_cast<int>(first) + lane, y) =
-                                numberLane(isValid, lane) > 0.5 ? 1 : 0;
+                            valid[lane] = isValid[static_cast<size_t>(lane)] != 0.0f ? 1 : 0;
                     }
                     for (int c = 0; c < 3; c++)
                         TexelFetch<T>::store(sample.rgb[c], result.radiance[l].row(y, c).data() + first,

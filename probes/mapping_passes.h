@@ -11,8 +11,8 @@ struct MappingPasses {
     // probes/latlong.h
     CubeMap<float> (*cubeFromLatLong)(const Image<float>& latLong, int size, const CubeFromLatLong& options,
                                       int threads);
-    // probes/convert.h; the images of the result have their sizes.
-    void (*convertImages)(const ConversionJob& job, ConvertedImages& result);
+    // probes/convert.h; the images of the result have their sizes. Writes every texel.
+    void (*convertImages)(const ConversionJob& job, Probe& result);
     void (*latLongFromCube)(const CubeMap<float>& cube, const LatLongFromCube& options, int threads,
                             Image<float>& latLong);
 };

@@ -136,9 +136,8 @@ TEST_CASE("ConversionsDependOnNoThreadsAndLanes") {
             job.source = cube.shape, job.target = conversion.shape, job.radiance = cube.radiance;
             job.turn = rotationAbout(0, 0.3), job.isTurned = true, job.hasBlindSpots = isDisc(to);
             job.resampling = resampling, job.samplesPerAxis = 3, job.threads = 1;
-            ConvertedImages images{
-                {static_cast<size_t>(one.shape.layers()), Image<float>(one.shape.width, 21, 3)}, {}, {}};
-            if (job.hasBlindSpots) images.valid.assign(1, Image<uint8_t>(21, 21, 1));
+            Probe images = one;
+            for (Image<float>& layer : images.radiance) layer.fill(-1);
             convertImages<float>(job, images);
             CHECK(images.radiance == one.radiance);
             CHECK(images.valid == one.valid);
