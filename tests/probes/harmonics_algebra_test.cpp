@@ -24,14 +24,6 @@ SphericalHarmonics randomHarmonics(int degree, uint64_t seed) {
     return f;
 }
 
-double largestDifference(const SphericalHarmonics& a, const SphericalHarmonics& b) {
-    double largest = 0;
-    for (size_t i = 0; i < a.coefficients.size(); i++)
-        for (int c = 0; c < 3; c++)
-            largest = std::max(largest, std::abs(a.coefficients[i][c] - b.coefficients[i][c]));
-    return largest;
-}
-
 double largestComponent(const glm::dvec3& a) {
     return std::max(std::abs(a.x), std::max(std::abs(a.y), std::abs(a.z)));
 }
