@@ -25,6 +25,7 @@ class Planner {
     Plan run() {
         planVisibility();
         for (int c = 0; c < kRadianceComponents; c++) planComponent(static_cast<ShadeOutput>(c));
+        planVertexLighting();
         planCubes();
         planEnvironment();
         planSurfaceImages();
@@ -70,9 +71,9 @@ class Planner {
 
     // Why a radiance component is zero everywhere, or empty when it may not be.
     std::string whyNothing(ShadeOutput component) const {
-        const auto isDiffuse = [](const Material& m) { return m.kind != MaterialKind::mirror; };
+        const auto isDiffuse = [](const Material& m) { return hasDiffusePart(m); };
         const auto isGlossy = [](const Material& m) { return m.kind == MaterialKind::blinnPhong; };
-        const auto isMirror = [](const Material& m) { return m.kind == MaterialKind::mirror; };
+        const auto isMirror = [](const Material& m) { return hasMirrorPart(m); };
         const auto missing = [&](auto&& has, std::string_view what) -> std::string {
             if (!any(has)) return fmt::format("no {} in the scene", what);
             if (!anyVisible(has)) return fmt::format("no {} is visible", what);
@@ -115,12 +116,23 @@ class Planner {
             if (p.name == pass) p.needs.push_back(need);
     }
 
+    // Gouraud shading, where the scene asks for it.
+    void planVertexLighting() {
+        if (!scene_.render.perVertex) return;
+        plan_.lightVertices = runs("diffuse") || runs("specular");
+        add("vertex lighting", plan_.lightVertices,
+            plan_.lightVertices ? "the scene is lit per vertex" : "neither diffuse nor specular runs",
+            {"visibility"});
+        for (const char* component : {"diffuse", "specular"})
+            if (runs(component)) addNeed(component, "vertex lighting");
+    }
+
     // A cube map of the scene for each visible mirror that asks for one.
     void planCubes() {
         plan_.objectCube.assign(objects_.size(), false);
         for (size_t i = 0; i < objects_.size(); i++) {
             const PlanObject& object = objects_[i];
-            if (!object.isMesh || object.material->kind != MaterialKind::mirror ||
+            if (!object.isMesh || !hasMirrorPart(*object.material) ||
                 scene_.meshes[object.index].reflection != Reflection::scene)
                 continue;
             const std::string name = "cube map of " + object.name;
@@ -143,8 +155,7 @@ class Planner {
     bool mirrorSeesEnvironment() const {
         if (!runs("mirror")) return false;
         for (size_t i = 0; i < objects_.size(); i++)
-            if (objects_[i].material->kind == MaterialKind::mirror && !plan_.objectCube[i] &&
-                (visible(i) || anyCube()))
+            if (hasMirrorPart(*objects_[i].material) && !plan_.objectCube[i] && (visible(i) || anyCube()))
                 return true;
         return false;
     }

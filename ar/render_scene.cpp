@@ -113,18 +113,16 @@ class SceneRenderer {
 
     void shadeView() {
         progress("shading");
-        ShadeJob job;
-        job.scene = &surfaces_;
-        job.view = &view_;
-        job.target = &visible_->target;
-        job.placed = &placed_;
-        job.instanceOfDraw = visible_->instanceOfDraw;
+        ShadeJob job = shadeJobOf(*visible_, surfaces_, placed_, view_, profile_, options_.raster);
         job.environmentCube = environmentCube_ ? &*environmentCube_ : nullptr;
-        for (const auto& cube : cubes_) job.sceneCubes.push_back(cube ? &cube->radiance : nullptr);
+        for (size_t i = 0; i < cubes_.size(); i++)
+            if (cubes_[i]) job.sceneCubes[i] = &cubes_[i]->radiance;
         job.request = result_.plan.request;
-        job.profile = &profile_;
-        job.threads = options_.raster.threads;
-        job.tileSize = options_.raster.tileSize;
+        std::vector<VertexRadiance> radiance;
+        if (result_.plan.lightVertices) {
+            radiance = lightVerticesOf(job);
+            job.vertexRadiance = &radiance;
+        }
         shaded_ = shade(job, &result_.shading);
     }
 

@@ -27,6 +27,8 @@ inline constexpr double kMinDirectionLength = 1e-9;
 inline constexpr double kMaxExponent = 4096;
 // Largest magnitude of the exposure, in stops: factors of 2^+-32.
 inline constexpr double kMaxExposure = 32;
+// Largest outer angle of a spot light, and how much smaller the inner one must be.
+inline constexpr double kMaxCone_deg = 89.9, kMinConeStep_deg = 0.01;
 // Largest edge of a reflection cube map, in texels (six faces of float RGB: 4.5 GiB).
 inline constexpr int kMaxCubeSize = 8192;
 
@@ -70,8 +72,8 @@ struct Checker {
     double size_m = 1;
 };
 
-// Reflectances in [0, 1]. lambert: diffuse; blinnPhong: diffuse, specular, exponent in [1, kMaxExponent];
-// mirror: reflectance.
+// Reflectances in [0, 1]. lambert: diffuse; blinnPhong: diffuse, specular, exponent in [1, kMaxExponent], and
+// reflectance of a mirror below; mirror: reflectance.
 struct Material {
     int line = 0;
     std::string name;
@@ -104,12 +106,17 @@ struct Plane {
     size_t material = 0;
 };
 
-// Light from infinitely far. direction: unit, the way the light travels. irradiance: W/m^2 on a surface
-// perpendicular to it.
-struct DirectionalLight {
+// direction: unit, the way the light travels (directional, spot). irradiance: W/m^2 on a surface
+// perpendicular to a directional light. intensity: W/sr of a point or spot light at `position`. The cones of
+// a spot light are the angles from its direction where its intensity begins to fall and where it is 0.
+struct SceneLight {
     int line = 0;
+    LightKind kind = LightKind::directional;
     glm::dvec3 direction{0, -1, 0};
     glm::dvec3 irradiance{0.0};
+    glm::dvec3 position{0.0};
+    glm::dvec3 intensity{0.0};
+    double inner_deg = 0, outer_deg = 0;
 };
 
 struct Output {
@@ -123,6 +130,7 @@ struct Render {
     int line = 0;
     int samples = 1;              // per pixel: 1, 4 or 16
     std::string profile = "f32";  // of profiles()
+    bool perVertex = false;       // lights are evaluated at vertices (Gouraud), else at pixels (Phong)
     uint64_t seed = 0;
 };
 
@@ -134,7 +142,7 @@ struct Scene {
     std::vector<Material> materials;  // in the order of their names
     std::vector<MeshObject> meshes;
     std::vector<Plane> planes;
-    std::vector<DirectionalLight> lights;
+    std::vector<SceneLight> lights;
     Output output;
     Render render;
 };

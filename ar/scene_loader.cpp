@@ -72,7 +72,7 @@ Output readOutput(const std::string& file, const TomlValue& value) {
 }
 
 Render readRender(const std::string& file, const TomlValue& value) {
-    const TableReader reader(file, value, "[render]", {"samples", "profile", "seed"});
+    const TableReader reader(file, value, "[render]", {"samples", "profile", "lighting", "seed"});
     Render render;
     render.line = reader.line();
     if (reader.has("samples")) {
@@ -82,6 +82,8 @@ Render readRender(const std::string& file, const TomlValue& value) {
         render.samples = static_cast<int>(samples);
     }
     if (reader.has("profile")) render.profile = reader.choice("profile", profileNames());
+    constexpr std::string_view kLighting[] = {"per_pixel", "per_vertex"};
+    if (reader.has("lighting")) render.perVertex = reader.choice("lighting", kLighting) == "per_vertex";
     if (reader.has("seed")) render.seed = static_cast<uint64_t>(reader.integer("seed", 0, INT64_MAX));
     return render;
 }

@@ -66,14 +66,13 @@ Material readMaterial(const std::string& file, const std::string& name, const To
         material.reflectance = reader.triple("reflectance", kUnitRange);
         return material;
     }
-    forbid({"reflectance"});
+    if (kind == "lambert") forbid({"specular", "exponent", "reflectance"});
     material.diffuse = reader.triple("diffuse", kUnitRange);
-    if (kind == "lambert") {
-        forbid({"specular", "exponent"});
-    } else {
+    if (kind == "blinn_phong") {
         material.kind = MaterialKind::blinnPhong;
         material.specular = reader.triple("specular", kUnitRange);
         material.exponent = reader.number("exponent", {1, kMaxExponent});
+        if (reader.has("reflectance")) material.reflectance = reader.triple("reflectance", kUnitRange);
     }
     if (reader.has("checker"))
         material.checker = readChecker(reader);
@@ -132,9 +131,9 @@ MeshObject readMesh(const std::string& file, const TomlValue& value, const std::
     if (mesh.objectToWorld.empty()) mesh.objectToWorld.push_back(own);
 
     mesh.twoSided = !reader.has("sides") || reader.choice("sides", kSides) == "both";
-    if (material.kind != MaterialKind::mirror)
+    if (!hasMirrorPart(material))
         for (const char* key : {"reflection", "cube_size"})
-            reader.forbid(key, "needs a material of kind 'mirror'");
+            reader.forbid(key, "needs a mirror, a material with 'reflectance'");
     if (reader.has("reflection") && reader.choice("reflection", kReflections) == "scene")
         mesh.reflection = Reflection::scene;
     if (mesh.reflection != Reflection::scene) reader.forbid("cube_size", "needs reflection = \"scene\"");

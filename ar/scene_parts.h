@@ -16,7 +16,7 @@ inline constexpr NumberRange kDegreesRange{-1e6, 1e6};
 
 Camera readCamera(const std::string& file, const TomlValue& value);
 Environment readEnvironment(const std::string& file, const TomlValue& value);
-DirectionalLight readLight(const std::string& file, const TomlValue& value);
+SceneLight readLight(const std::string& file, const TomlValue& value);
 Output readOutput(const std::string& file, const TomlValue& value);
 Render readRender(const std::string& file, const TomlValue& value);
 Material readMaterial(const std::string& file, const std::string& name, const TomlValue& value);

@@ -120,14 +120,39 @@ Environment readEnvironment(const std::string& file, const TomlValue& value) {
     return environment;
 }
 
-DirectionalLight readLight(const std::string& file, const TomlValue& value) {
-    constexpr std::string_view kKinds[] = {"directional"};
-    const TableReader reader(file, value, "[[light]]", {"kind", "direction", "irradiance"});
-    DirectionalLight light;
+SceneLight readLight(const std::string& file, const TomlValue& value) {
+    constexpr std::string_view kKinds[] = {"directional", "point", "spot"};
+    const TableReader reader(
+        file, value, "[[light]]",
+        {"kind", "direction", "irradiance", "position", "intensity", "inner_deg", "outer_deg"});
+    SceneLight light;
     light.line = reader.line();
-    reader.choice("kind", kKinds);
-    light.direction = unitOf(reader.direction("direction"));
-    light.irradiance = reader.triple("irradiance", kNonNegativeRange);
+    const std::string kind = reader.choice("kind", kKinds);
+    const auto forbid = [&](std::initializer_list<std::string_view> keys) {
+        for (const std::string_view key : keys)
+            reader.forbid(key, fmt::format("is not used by kind '{}'", kind));
+    };
+    if (kind != "point") light.direction = unitOf(reader.direction("direction"));
+    if (kind == "directional") {
+        forbid({"position", "intensity", "inner_deg", "outer_deg"});
+        light.irradiance = reader.triple("irradiance", kNonNegativeRange);
+        return light;
+    }
+    forbid({"irradiance"});
+    light.position = reader.triple("position", kCoordinateRange);
+    light.intensity = reader.triple("intensity", kNonNegativeRange);
+    if (kind == "point") {
+        light.kind = LightKind::point;
+        forbid({"direction", "inner_deg", "outer_deg"});
+        return light;
+    }
+    light.kind = LightKind::spot;
+    light.outer_deg = reader.number("outer_deg", {kMinConeStep_deg, kMaxCone_deg});
+    if (reader.has("inner_deg")) light.inner_deg = reader.number("inner_deg", {0, kMaxCone_deg});
+    if (!(light.inner_deg <= light.outer_deg - kMinConeStep_deg))
+        reader.failKey(reader.has("inner_deg") ? "inner_deg" : "outer_deg",
+                       fmt::format("must be at least {} below 'outer_deg' ({}), not {}", kMinConeStep_deg,
+                                   light.outer_deg, light.inner_deg));
     return light;
 }
 

@@ -27,6 +27,19 @@ SurfaceMaterial toSurface(const Material& material) {
     return surface;
 }
 
+SurfaceLight toSurface(const SceneLight& light) {
+    SurfaceLight surface;
+    surface.toLight = {-light.direction.x, -light.direction.y, -light.direction.z};
+    surface.irradiance = light.irradiance;
+    surface.kind = light.kind;
+    surface.position_m = light.position;
+    surface.intensity = light.intensity;
+    surface.axis = light.direction;
+    surface.cosInner = sinCosOfDegrees(light.inner_deg).cos;
+    surface.cosOuter = sinCosOfDegrees(light.outer_deg).cos;
+    return surface;
+}
+
 // The inverse transpose of the upper 3x3 part, column by column.
 glm::dmat3 normalMatrix(const glm::dmat4& m) {
     const auto column = [&](int i) {
@@ -71,9 +84,7 @@ SurfaceMesh planeMesh(const Plane& plane) {
 SurfaceScene buildSurfaces(const Scene& scene, std::vector<std::string>& warnings) {
     SurfaceScene surfaces;
     for (const Material& material : scene.materials) surfaces.materials.push_back(toSurface(material));
-    for (const DirectionalLight& light : scene.lights)
-        surfaces.lights.push_back(
-            {{-light.direction.x, -light.direction.y, -light.direction.z}, light.irradiance});
+    for (const SceneLight& light : scene.lights) surfaces.lights.push_back(toSurface(light));
     surfaces.ambient = scene.ambient;
     if (scene.environment.kind == EnvironmentKind::constant)
         surfaces.environment.constant = scene.environment.constant;

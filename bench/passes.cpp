@@ -34,17 +34,9 @@ void drawDepth(VisibleScene& visible, const PlacedWorkload& work, int samples, c
 
 ShadedImages shadeVisible(const PlacedWorkload& work, const VisibleScene& visible,
                           const RasterOptions& options) {
-    ShadeJob job;
-    job.scene = &work.workload->scene;
-    job.view = &work.workload->view;
-    job.target = &visible.target;
-    job.placed = &work.placed;
-    job.instanceOfDraw = visible.instanceOfDraw;
-    job.sceneCubes.assign(job.scene->instances.size(), nullptr);
+    ShadeJob job =
+        shadeJobOf(visible, work.workload->scene, work.placed, work.workload->view, *work.profile, options);
     job.request[ShadeOutput::beauty] = true;
-    job.profile = work.profile;
-    job.threads = options.threads;
-    job.tileSize = options.tileSize;
     return shade(job);
 }
 

@@ -67,18 +67,9 @@ std::vector<BitPlane> shadeScene(const Profile& profile, const ViewSize& size, b
     const View view = demoView(size.width, size.height);
     const VisibleScene visible = findVisible(scene, placed, view, profile, size.samples, options);
 
-    ShadeJob job;
-    job.scene = &scene;
-    job.view = &view;
-    job.target = &visible.target;
-    job.placed = &placed;
-    job.instanceOfDraw = visible.instanceOfDraw;
+    ShadeJob job = shadeJobOf(visible, scene, placed, view, profile, options);
     job.environmentCube = &environment;
-    job.sceneCubes.assign(scene.instances.size(), nullptr);
     job.sceneCubes[kSceneMirror] = &mirrored.radiance;
-    job.profile = &profile;
-    job.threads = options.threads;
-    job.tileSize = options.tileSize;
     for (int o = 0; o < kShadeOutputs; o++) job.request.wanted[o] = hasComponents || o >= kRadianceComponents;
     const ShadedImages images = shade(job);
 

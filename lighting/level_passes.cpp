@@ -1,6 +1,7 @@
 // Compiled once per level.
 #include "lighting/lighting_passes.h"
 #include "lighting/transform.h"
+#include "lighting/vertex_lighting.h"
 #include "numeric/lanes.h"
 #include "raster/fragment_numbers.h"
 
@@ -17,7 +18,7 @@ ETALON_PASSES_IN_LANES(ShadingPasses, shadingPasses)
 
 const LightingPasses& lightingPasses() {
     static const LightingPasses passes = {shadingPasses_inLanes, toneMap<Native<float>>, transformPoints,
-                                          projectPoints};
+                                          projectPoints, lightVertices};
     return passes;
 }
 

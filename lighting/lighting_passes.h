@@ -26,6 +26,10 @@ struct LightingPasses {
                             std::span<glm::dvec3> to);
     void (*projectPoints)(RasterReal real, const TransformRows& rows, std::span<const glm::dvec3> from,
                           std::span<ClipVertex> to);
+    // lighting/vertex_lighting.h
+    void (*lightVertices)(RasterReal real, const SurfaceScene& scene, const SurfaceMaterial& material,
+                          const PlacedMesh& placed, const glm::dvec3& eye, size_t begin, size_t count,
+                          VertexRadiance& radiance);
 };
 
 // Those of the active level.

@@ -54,6 +54,22 @@ void findVisible(VisibleScene& visible, const SurfaceScene& scene, const std::ve
     visible.statistics = rasterize(target, {0, 0, view.width, view.height}, draws, cleared);
 }
 
+ShadeJob shadeJobOf(const VisibleScene& visible, const SurfaceScene& scene,
+                    const std::vector<PlacedMesh>& placed, const View& view, const Profile& profile,
+                    const RasterOptions& options) {
+    ShadeJob job;
+    job.scene = &scene;
+    job.view = &view;
+    job.target = &visible.target;
+    job.placed = &placed;
+    job.instanceOfDraw = visible.instanceOfDraw;
+    job.sceneCubes.assign(scene.instances.size(), nullptr);
+    job.profile = &profile;
+    job.threads = options.threads;
+    job.tileSize = options.tileSize;
+    return job;
+}
+
 CubeRender renderCubeMap(const SurfaceScene& scene, const std::vector<PlacedMesh>& placed,
                          const CubeRenderRequest& request, const CubeMap<float>* environmentCube,
                          const Profile& profile, const RasterOptions& options) {
@@ -72,19 +88,10 @@ CubeRender renderCubeMap(const SurfaceScene& scene, const std::vector<PlacedMesh
                                        request.near_m, request.far_m);
         findVisible(visible, scene, placed, view, profile, 1, options, request.excluded,
                     only[static_cast<size_t>(face)]);
-        ShadeJob job;
-        job.scene = &scene;
-        job.view = &view;
-        job.target = &visible.target;
-        job.placed = &placed;
-        job.instanceOfDraw = visible.instanceOfDraw;
+        ShadeJob job = shadeJobOf(visible, scene, placed, view, profile, options);
         job.environmentCube = environmentCube;
-        job.sceneCubes.assign(scene.instances.size(), nullptr);
         job.request[ShadeOutput::beauty] = true;
         job.request[ShadeOutput::distance] = true;
-        job.profile = &profile;
-        job.threads = options.threads;
-        job.tileSize = options.tileSize;
         ShadedImages images = shade(job);
         cube.radiance.faces[static_cast<size_t>(face)] = std::move(images[ShadeOutput::beauty]);
         cube.distance.faces[static_cast<size_t>(face)] = std::move(images[ShadeOutput::distance]);

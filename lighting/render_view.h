@@ -31,6 +31,12 @@ void findVisible(VisibleScene& visible, const SurfaceScene& scene, const std::ve
                  const View& view, const Profile& profile, int samples, const RasterOptions& options,
                  uint32_t excluded = kNoInstance, std::span<const std::vector<uint32_t>> only = {});
 
+// The job of shading what is visible: nothing asked for yet, no cube maps, each fragment lit by itself. All
+// arguments outlive it.
+ShadeJob shadeJobOf(const VisibleScene& visible, const SurfaceScene& scene,
+                    const std::vector<PlacedMesh>& placed, const View& view, const Profile& profile,
+                    const RasterOptions& options);
+
 // Six faces with what is seen from a point: radiance (three channels) and the distance along the ray in
 // metres (infinity where nothing is).
 struct CubeRender {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <mutex>
 
-#include "lighting/shading_passes.h"
+#include "lighting/lighting_passes.h"
 #include "numeric/check.h"
 #include "numeric/parallel.h"
 #include "probes/mapping_passes.h"
@@ -58,6 +58,27 @@ ShadedImages shade(const ShadeJob& job, ShadeStatistics* statistics) {
     });
     if (statistics) *statistics = total;
     return images;
+}
+
+std::vector<VertexRadiance> lightVerticesOf(const ShadeJob& job) {
+    constexpr size_t kVerticesPerTask = 4096;
+    std::vector<VertexRadiance> radiance(job.scene->instances.size());
+    std::vector<bool> visible(radiance.size(), false);
+    for (const uint32_t id : job.target->id.values())
+        if (id != kNoTriangle) visible[job.instanceOfDraw[job.target->triangles[id].draw]] = true;
+    for (size_t i = 0; i < radiance.size(); i++) {
+        if (!visible[i]) continue;
+        const PlacedMesh& placed = (*job.placed)[i];
+        const size_t count = placed.positions.size();
+        for (auto& side : radiance[i].sides) side.diffuse.resize(count), side.specular.resize(count);
+        const SurfaceMaterial& material = job.scene->materials[job.scene->instances[i].material];
+        parallelFor((count + kVerticesPerTask - 1) / kVerticesPerTask, job.threads, [&](size_t task) {
+            const size_t begin = task * kVerticesPerTask;
+            lightingPasses().lightVertices(job.profile->vertex, *job.scene, material, placed, job.view->eye,
+                                           begin, std::min(kVerticesPerTask, count - begin), radiance[i]);
+        });
+    }
+    return radiance;
 }
 
 CubeMap<float> environmentCube(const SurfaceEnvironment& environment, const Profile& profile, int threads) {

@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "lighting/geometry.h"
+#include "lighting/light_visibility.h"
 #include "lighting/surface_scene.h"
+#include "lighting/vertex_lighting.h"
 #include "lighting/view.h"
 #include "raster/fragments.h"
 #include "raster/profile.h"
@@ -64,6 +66,11 @@ struct ShadeJob {
     const CubeMap<float>* environmentCube = nullptr;  // null: mirrors of the environment see its constant
     std::vector<const CubeMap<float>*>
         sceneCubes;  // for each instance: its cube map, or null for the environment
+    // What stands between the lights and the fragments; null: nothing.
+    const LightVisibility* visibility = nullptr;
+    // For each instance what its vertices reflect, to be interpolated (lighting/vertex_lighting.h); null:
+    // every fragment is lit by itself.
+    const std::vector<VertexRadiance>* vertexRadiance = nullptr;
     ShadeRequest request;
     const Profile* profile = nullptr;
     int threads = 0, tileSize = 64;
@@ -71,6 +78,9 @@ struct ShadeJob {
 
 // Shades each visible fragment once, in the profile's fragment arithmetic.
 ShadedImages shade(const ShadeJob& job, ShadeStatistics* statistics = nullptr);
+
+// Lights the vertices of every instance that the job's target shows; the others stay empty.
+std::vector<VertexRadiance> lightVerticesOf(const ShadeJob& job);
 
 // The cube map of a lat-long environment for its mirrors, without its rotation: a quarter of the image's
 // width along a face, so that texels subtend about what they do in the image, one sample each.

@@ -9,6 +9,7 @@
 
 #include "lighting/shading_passes.h"
 #include "lighting/shading_kernels.h"
+#include "lighting/surface_lighting.h"
 #include "lighting/tile_triangles.h"
 #include "numeric/number_lanes.h"
 #include "raster/fragments.h"
@@ -25,7 +26,6 @@ class TileShaderOf final : public TileShader {
     using K = ShadingKernels<T>;
     using vec3 = typename K::vec3;
     static constexpr int N = NumberTraits<T>::lanes;
-    static constexpr double kEightPi = 25.132741228718345;
 
     using Stored = TexelStorage<T>;
     using Triangles = TileTriangles<T>;
@@ -44,25 +44,31 @@ class TileShaderOf final : public TileShader {
         // Whether the fragments are neighbours in memory.
         bool isRun() const { return fragments.back() - fragments.front() == fragments.size() - 1; }
     };
-    // What the lights of a group add up to.
-    struct Reflected {
-        vec3 diffuse, specular;
+    using Lighting = SurfaceLighting<T>;
+
+    // What reaches the fragments of a group of each light.
+    struct Shadows {
+        const TileShaderOf& shader;
+        const Group& group;
+        bool casts(size_t light) const { return shader.casts_[light]; }
+        T visibility(size_t light) const {
+            const double* of = &shader.visibility_[light * shader.tile_.size()];
+            return generateNumber<T>([&](int i) {
+                return of[group.fragments[std::min(static_cast<size_t>(i), group.fragments.size() - 1)]];
+            });
+        }
     };
 
-    static vec3 constant(const glm::dvec3& v) { return vec3(T(v.x), T(v.y), T(v.z)); }
-    using Condition = typename K::boolean;
-    static bool everyLane(const Condition& c) { return !anyOf(!c); }
-    static Condition isFinite(const T& a) { return a - a == T(0.0); }
-    static Condition isFinite(const vec3& a) { return isFinite(a.x) && isFinite(a.y) && isFinite(a.z); }
+    static vec3 constant(const glm::dvec3& v) { return Lighting::constant(v); }
     void setUpTriangles();
+    void setFaceNormal(size_t number, uint32_t id, const PlacedMesh& placed);
     size_t bucketOf(const SurfaceMaterial& material, const CubeMap<float>* cube);
     void sortIntoBuckets();
     Group groupOf(std::span<const uint32_t> fragments) const;
+    void findVisibility();
     void shadeBackground(const Group& group);
     void shadeSurface(const Bucket& bucket, const Group& group);
     vec3 albedo(const SurfaceMaterial& material, const Weights& w, const Group& group);
-    Reflected reflected(const SurfaceMaterial& material, vec3 n, vec3 toEye, vec3 surface, bool diffuse,
-                        bool specular);
     vec3 sampleEnvironment(vec3 direction);
     vec3 mirrorRadiance(const Bucket& bucket, vec3 n, vec3 toEye);
     void put(ShadeOutput output, const Group& group, vec3 value);
@@ -75,29 +81,33 @@ class TileShaderOf final : public TileShader {
 
     const ShadeJob& job_;
     K kernels_;
-    std::vector<vec3> toLight_, irradiance_;
-    std::vector<bool> finiteLight_;  // whether the irradiance is, as a T
+    Lighting lighting_;
     vec3 ambient_, eye_;
+    std::vector<bool> casts_;  // for each light whether its visibility is asked for; empty: for none
+    LitPoints points_;
+    std::vector<double> visibility_;  // for each light, of every fragment
     SamplerSettings sampler_;
     TileFragments tile_;
     Triangles triangles_;
     std::vector<Bucket> buckets_;  // the first is the background
     std::vector<size_t> bucketOfTriangle_;
+    std::vector<glm::dvec3> faceNormals_;  // of the triangles, for lights that may be blocked
     std::array<std::vector<Stored>, kShadeOutputs> values_;
 };
 
 template <class T>
-TileShaderOf<T>::TileShaderOf(const ShadeJob& job) : job_(job) {
-    for (const SurfaceLight& light : job.scene->lights) {
-        toLight_.push_back(constant(light.toLight));
-        irradiance_.push_back(constant(light.irradiance));
-        finiteLight_.push_back(everyLane(isFinite(irradiance_.back())));
-    }
+TileShaderOf<T>::TileShaderOf(const ShadeJob& job) : job_(job), lighting_(*job.scene) {
     ambient_ = constant(job.scene->ambient);
     eye_ = constant(job.view->eye);
     sampler_.filter = job.profile->textureFilter;
     sampler_.fractionBits = job.profile->textureFractionBits;
     buckets_.push_back(Bucket{nullptr, nullptr, {}});
+    const ShadeRequest& request = job.request;
+    if (!job.visibility || job.vertexRadiance ||
+        !(request.needs(ShadeOutput::diffuse) || request.needs(ShadeOutput::specular)))
+        return;
+    for (size_t l = 0; l < job.scene->lights.size(); l++) casts_.push_back(job.visibility->casts(l));
+    if (std::find(casts_.begin(), casts_.end(), true) == casts_.end()) casts_.clear();
 }
 
 template <class T>
@@ -107,6 +117,7 @@ void TileShaderOf<T>::run(const PixelRectangle& rectangle, ShadedImages& images,
     tile_.collect(*job_.target, rectangle);
     setUpTriangles();
     sortIntoBuckets();
+    findVisibility();
     for (size_t o = 0; o < kShadeOutputs; o++)
         if (job_.request.wanted[o]) values_[o].assign(3 * tile_.size(), Stored(0));
     for (size_t b = 0; b < buckets_.size(); b++) {
@@ -140,6 +151,7 @@ void TileShaderOf<T>::setUpTriangles() {
     const size_t count = tile_.triangles.size();
     triangles_.reset(count);
     bucketOfTriangle_.assign(count, 0);
+    if (!casts_.empty()) faceNormals_.assign(count, glm::dvec3(0));
     for (size_t i = 0; i < count; i++) {
         const uint32_t id = tile_.triangles[i];
         if (id == kNoTriangle) continue;
@@ -149,7 +161,24 @@ void TileShaderOf<T>::setUpTriangles() {
         bucketOfTriangle_[i] =
             bucketOf(job_.scene->materials[job_.scene->instances[instance].material], cube);
         triangles_.set(i, *job_.target, id, (*job_.placed)[instance]);
+        if (!casts_.empty()) setFaceNormal(i, id, (*job_.placed)[instance]);
+        if (job_.vertexRadiance)
+            triangles_.setRadiance(i, *job_.target, id, (*job_.placed)[instance],
+                                   (*job_.vertexRadiance)[instance]);
     }
+}
+
+// In the fragment arithmetic from the vertices in world space, turned to the side that is seen; 0 for
+// triangles without an area.
+template <class T>
+void TileShaderOf<T>::setFaceNormal(size_t number, uint32_t id, const PlacedMesh& placed) {
+    const uint32_t* index = &placed.mesh->indices[3 * size_t{job_.target->triangle(id).triangle}];
+    const vec3 a = constant(placed.positions[index[0]]);
+    const vec3 ab = kernels_.sub3(constant(placed.positions[index[1]]), a);
+    const vec3 ac = kernels_.sub3(constant(placed.positions[index[2]]), a);
+    const vec3 normal = kernels_.unit3(kernels_.cross3(ab, ac));
+    const double side = (job_.target->triangle(id).front != placed.mirrored) ? 1.0 : -1.0;
+    for (int c = 0; c < 3; c++) faceNormals_[number][c] = side * numberLane(normal[c], 0);
 }
 
 template <class T>
@@ -174,6 +203,49 @@ typename TileShaderOf<T>::Group TileShaderOf<T>::groupOf(std::span<const uint32_
     lanes.isOneTriangle = std::all_of(lanes.triangle.begin(), lanes.triangle.end(),
                                       [&](uint32_t t) { return t == lanes.triangle[0]; });
     return group;
+}
+
+// What reaches the tile's fragments of the lights that may be blocked. The points of the background stand
+// there, too, as zeros.
+template <class T>
+void TileShaderOf<T>::findVisibility() {
+    if (casts_.empty()) return;
+    const size_t count = tile_.size();
+    for (auto* vectors : {&points_.position_m, &points_.normal, &points_.faceNormal})
+        for (std::vector<double>& component : *vectors) component.assign(count, 0);
+    points_.instance.assign(count, kNoTriangle);
+    points_.x_px.resize(count), points_.y_px.resize(count);
+    const int n = job_.target->format.subpixelBits;
+    for (size_t b = 1; b < buckets_.size(); b++) {
+        const std::vector<uint32_t>& list = buckets_[b].fragments;
+        forEachLaneGroup<N>(list.size(), [&](size_t first, int active) {
+            const Group group = groupOf(std::span(&list[first], static_cast<size_t>(active)));
+            const Weights w = triangles_.weights(group.lanes);
+            const vec3 normal = kernels_.scale3(kernels_.unit3(triangles_.normal(w)), w.facing);
+            const vec3 position = triangles_.position(w, group.lanes);
+            for (size_t i = 0; i < group.fragments.size(); i++) {
+                const uint32_t f = group.fragments[i];
+                for (int c = 0; c < 3; c++) {
+                    points_.position_m[static_cast<size_t>(c)][f] =
+                        numberLane(position[c], static_cast<int>(i));
+                    points_.normal[static_cast<size_t>(c)][f] = numberLane(normal[c], static_cast<int>(i));
+                }
+            }
+        });
+    }
+    for (size_t f = 0; f < count; f++) {
+        points_.x_px[f] = static_cast<uint32_t>(tile_.x_subpx[f] >> n);
+        points_.y_px[f] = static_cast<uint32_t>(tile_.y_subpx[f] >> n);
+        const size_t triangle = tile_.triangle[f];
+        if (bucketOfTriangle_[triangle] == 0) continue;
+        const uint32_t id = tile_.triangles[triangle];
+        points_.instance[f] = job_.instanceOfDraw[job_.target->triangles[id].draw];
+        const glm::dvec3 face = faceNormals_[triangle];
+        for (int c = 0; c < 3; c++) points_.faceNormal[static_cast<size_t>(c)][f] = face[c];
+    }
+    visibility_.assign(casts_.size() * count, 1);
+    for (size_t l = 0; l < casts_.size(); l++)
+        if (casts_[l]) job_.visibility->find(l, points_, std::span(visibility_).subspan(l * count, count));
 }
 
 // The environment in the direction of the pixel's centre.
@@ -205,27 +277,28 @@ template <class T>
 void TileShaderOf<T>::shadeSurface(const Bucket& bucket, const Group& group) {
     const SurfaceMaterial& material = *bucket.material;
     const ShadeRequest& request = job_.request;
-    const bool hasDiffuse = material.kind != MaterialKind::mirror;
-    const bool lit = !toLight_.empty();
+    const bool hasDiffuse = hasDiffusePart(material);
+    const bool lit = !lighting_.empty();
     const bool ambient = hasDiffuse && request.needs(ShadeOutput::ambient);
     const bool diffuse = hasDiffuse && lit && request.needs(ShadeOutput::diffuse);
     const bool specular =
         material.kind == MaterialKind::blinnPhong && lit && request.needs(ShadeOutput::specular);
-    const bool mirror = material.kind == MaterialKind::mirror && request.needs(ShadeOutput::mirror);
+    const bool mirror = hasMirrorPart(material) && request.needs(ShadeOutput::mirror);
     const bool distance = request[ShadeOutput::distance], normals = request[ShadeOutput::normals];
     const bool needNormal = diffuse || specular || mirror || normals,
-               needEye = specular || mirror || distance;
+               needEye = specular || mirror || distance, needPlace = diffuse && lighting_.hasPlaces();
     if (!(ambient || needNormal || needEye)) return;
 
     // Interpolate what the wanted outputs read.
     const Weights w = triangles_.weights(group.lanes);
-    vec3 n = constant(glm::dvec3(0)), toEye = n;
+    vec3 n = constant(glm::dvec3(0)), toEye = n, position = n;
+    if (needEye || needPlace) position = triangles_.position(w, group.lanes);
     if (needNormal) {
         n = kernels_.scale3(kernels_.unit3(triangles_.normal(w)), w.facing);
         put(ShadeOutput::normals, group, n);
     }
     if (needEye) {
-        toEye = kernels_.sub3(eye_, triangles_.position(w, group.lanes));
+        toEye = kernels_.sub3(eye_, position);
         if (distance) put(ShadeOutput::distance, group, vec3(kernels_.length3(toEye), T(0.0), T(0.0)));
         toEye = kernels_.unit3(toEye);
     }
@@ -238,46 +311,27 @@ void TileShaderOf<T>::shadeSurface(const Bucket& bucket, const Group& group) {
     };
     const vec3 surface = ambient || diffuse ? albedo(material, w, group) : sum;
     if (ambient) add(ShadeOutput::ambient, kernels_.mul3(surface, ambient_));
-    const Reflected lights = reflected(material, n, toEye, surface, diffuse, specular);
-    if (diffuse) add(ShadeOutput::diffuse, lights.diffuse);
-    if (specular) add(ShadeOutput::specular, lights.specular);
+    if (job_.vertexRadiance) {
+        if (diffuse) add(ShadeOutput::diffuse, triangles_.diffuseRadiance(w, group.lanes));
+        if (specular) add(ShadeOutput::specular, triangles_.specularRadiance(w, group.lanes));
+    } else {
+        const typename Lighting::Point point{position, n, toEye};
+        const auto lights = casts_.empty() ? lighting_.reflected(material, point, surface, diffuse, specular)
+                                           : lighting_.reflected(material, point, surface, diffuse, specular,
+                                                                 Shadows{*this, group});
+        if (diffuse) add(ShadeOutput::diffuse, lights.diffuse);
+        if (specular) add(ShadeOutput::specular, lights.specular);
+    }
     if (mirror) add(ShadeOutput::mirror, mirrorRadiance(bucket, n, toEye));
     put(ShadeOutput::beauty, group, sum);
-}
-
-// Flattened, so that constants stay in registers from light to light.
-template <class T>
-[[gnu::flatten]] typename TileShaderOf<T>::Reflected TileShaderOf<T>::reflected(
-    const SurfaceMaterial& material, vec3 n, vec3 toEye, vec3 surface, bool diffuse, bool specular) {
-    const vec3 colour = constant(material.specular);
-    const T exponent(material.exponent), scale((material.exponent + 8.0) / kEightPi);
-    Reflected sum{constant(glm::dvec3(0)), constant(glm::dvec3(0))};
-    // A light behind the surfaces of all lanes adds zeros, unless something here is not finite.
-    const bool hasZeros = everyLane(isFinite(toEye) && isFinite(scale));
-    for (size_t l = 0; l < toLight_.size(); l++) {
-        const bool isBehind = everyLane(kernels_.dot3(n, toLight_[l]) <= T(0.0));
-        if (isBehind && hasZeros && finiteLight_[l]) continue;
-        if (diffuse)
-            sum.diffuse =
-                kernels_.add3(sum.diffuse, kernels_.lambert(n, toLight_[l], irradiance_[l], surface));
-        if (specular)
-            sum.specular = kernels_.add3(
-                sum.specular,
-                kernels_.blinnPhong(n, toEye, toLight_[l], irradiance_[l], colour, exponent, scale));
-    }
-    return sum;
 }
 
 template <class T>
 typename TileShaderOf<T>::vec3 TileShaderOf<T>::albedo(const SurfaceMaterial& material, const Weights& w,
                                                        const Group& group) {
-    const vec3 even = constant(material.diffuse);
-    if (!material.checker) return even;
+    if (!material.checker) return constant(material.diffuse);
     const auto [u, v] = triangles_.surfaceCoordinates(w, group.lanes);
-    const auto isOdd = kernels_.isOddSquare(u, v, T(1.0 / material.checkerSize_m));
-    const vec3 odd = constant(material.diffuse2);
-    return vec3(K::select(isOdd, odd.x, even.x), K::select(isOdd, odd.y, even.y),
-                K::select(isOdd, odd.z, even.z));
+    return lighting_.surfaceColour(material, u, v);
 }
 
 template <class T>

@@ -23,6 +23,7 @@ struct ShadingKernels {
 #include "lighting/kernels/lambert.glsl"
 #include "probes/kernels/latlong.glsl"
 #include "lighting/kernels/mirror.glsl"
+#include "lighting/kernels/positional_light.glsl"
 #include "lighting/kernels/rotate_y.glsl"
 };
 

@@ -20,17 +20,35 @@ struct SurfaceMaterial {
     MaterialKind kind = MaterialKind::lambert;
     glm::dvec3 diffuse{0};
     glm::dvec3 specular{0};
-    glm::dvec3 reflectance{0};  // of the mirror
+    glm::dvec3 reflectance{0};  // of mirrors, and of a mirror below Blinn-Phong's lobe
     double exponent = 1;        // of Blinn-Phong, at least 1
     bool checker = false;       // squares of odd parity take diffuse2; u and v in metres
     glm::dvec3 diffuse2{0};
     double checkerSize_m = 1;
 };
 
-// toLight: unit vector towards the light. irradiance: on a surface that faces it, W/m^2 per channel.
+// Whether a material (this one or a scene file's) has a diffuse part, and whether it mirrors.
+bool hasDiffusePart(const auto& material) { return material.kind != MaterialKind::mirror; }
+bool hasMirrorPart(const auto& material) {
+    const glm::dvec3& r = material.reflectance;
+    return material.kind == MaterialKind::mirror || r.x > 0 || r.y > 0 || r.z > 0;
+}
+
+// directional: from infinitely far; point: in all directions from a place; spot: in a cone.
+enum class LightKind : uint8_t { directional, point, spot };
+
 struct SurfaceLight {
+    // Of a directional light: the unit vector towards it, and what a surface that faces it receives, W/m^2
+    // per channel.
     glm::dvec3 toLight{0, 1, 0};
     glm::dvec3 irradiance{0};
+
+    LightKind kind = LightKind::directional;
+    glm::dvec3 position_m{0};
+    glm::dvec3 intensity{0};  // W/sr per channel; of a spot along its axis
+    // Of a spot: the way the light travels, unit, and its cones (lighting/kernels/positional_light.glsl).
+    glm::dvec3 axis{0, -1, 0};
+    double cosInner = 1, cosOuter = 0;
 };
 
 // A mesh of the scene. normals and surface coordinates are per vertex; uv may be empty (then 0).

@@ -11,6 +11,7 @@
 
 #include "lighting/geometry.h"
 #include "lighting/shading_kernels.h"
+#include "lighting/vertex_lighting.h"
 #include "numeric/number_lanes.h"
 #include "raster/fragments.h"
 #include "raster/setup.h"
@@ -43,10 +44,18 @@ class TileTriangles {
     void reset(size_t count);
     void set(size_t number, const RenderTarget& target, uint32_t id, const PlacedMesh& placed);
 
+    // What the corners of a triangle that is set reflect on the side that is seen.
+    void setRadiance(size_t number, const RenderTarget& target, uint32_t id, const PlacedMesh& placed,
+                     const VertexRadiance& radiance);
+
     Weights weights(const Group& group) const;
     vec3 normal(const Weights& w) const;  // interpolated, of any length
     vec3 position(const Weights& w, const Group& group) const;
     std::array<T, 2> surfaceCoordinates(const Weights& w, const Group& group) const;
+    vec3 diffuseRadiance(const Weights& w, const Group& group) const { return radiance(w, group, 0); }
+    vec3 specularRadiance(const Weights& w, const Group& group) const {
+        return radiance(w, group, kSpecularRadiance);
+    }
 
   private:
     using Stored = TexelStorage<T>;
@@ -61,6 +70,26 @@ class TileTriangles {
     static constexpr size_t kEdge1 = 0, kEdge2 = 3, kArea = 6, kLarge = 7, kEdgeWords = 8;
     using LargeEdges = std::array<EdgeFunction, 3>;
 
+    // Words of a record of what the corners reflect; blocks of N words are read.
+    static constexpr size_t kSpecularRadiance = 16, kRadianceWords = 32;
+
+    // The vertices of a triangle in the order of the source, and its corners.
+    struct Corners {
+        const RenderTarget& target;
+        uint32_t id;
+        const TriangleRecord record;
+        const uint32_t* index;
+    };
+    static Corners cornersOf(const RenderTarget& target, uint32_t id, const PlacedMesh& placed);
+    template <class Vectors>
+    static void gather(const Corners& corners, const Vectors& values, int components, double* words);
+    static void storeWords(const double* words, size_t count, Stored* to);
+    vec3 radiance(const Weights& w, const Group& group, size_t first) const {
+        const auto words = columns<9>(&radiance_[first], kRadianceWords, group);
+        return {interpolated(w, three(&words[0])), interpolated(w, three(&words[3])),
+                interpolated(w, three(&words[6]))};
+    }
+
     void setEdges(size_t number, const TriangleRecord& record);
     double edgeValue(const Group& group, size_t lane, size_t edge) const;
     vec3 edgeValues(const Group& group, const Row& areaScale) const;
@@ -73,7 +102,7 @@ class TileTriangles {
     }
     static vec3 three(const Row* rows) { return {number(rows[0]), number(rows[1]), number(rows[2])}; }
 
-    std::vector<Stored> words_;
+    std::vector<Stored> words_, radiance_;
     std::vector<uint32_t> edges_;
     std::vector<LargeEdges> large_;  // of the triangles with a larger area; kLarge is one more than the index
 };
@@ -104,47 +133,70 @@ void TileTriangles<T>::setEdges(size_t number, const TriangleRecord& record) {
     }
 }
 
-// Attributes below 2^-60 in magnitude are 0.
 template <class T>
-void TileTriangles<T>::set(size_t number, const RenderTarget& target, uint32_t id, const PlacedMesh& placed) {
-    constexpr double kSmallestAttribute = 0x1p-60;
+typename TileTriangles<T>::Corners TileTriangles<T>::cornersOf(const RenderTarget& target, uint32_t id,
+                                                               const PlacedMesh& placed) {
     const TriangleRecord record = target.triangle(id);
-    setEdges(number, record);
-    const WeightScale scale = weightScale(record);
-    std::array<double, kWords> words{};
-    for (size_t k = 0; k < 3; k++) words[kQ + k] = scale.q[k];
-    words[kFacing] = record.front ? 1.0 : -1.0;
+    return {target, id, record, &placed.mesh->indices[3 * size_t{record.triangle}]};
+}
 
-    // The components of the vertices in the order of the source; then in that of the record.
-    const uint32_t* index = &placed.mesh->indices[3 * size_t{record.triangle}];
-    const auto setAttribute = [&](size_t first, double v0, double v1, double v2) {
-        const std::array<double, 3> source = {v0, v1, v2};
+// The first components of the vectors at the corners of a triangle: three words each, in the order of the
+// record. Magnitudes below 2^-60 are 0.
+template <class T>
+template <class Vectors>
+void TileTriangles<T>::gather(const Corners& corners, const Vectors& values, int components, double* words) {
+    constexpr double kSmallestAttribute = 0x1p-60;
+    const uint32_t* index = corners.index;
+    const auto &a = values[index[0]], &b = values[index[1]], &c = values[index[2]];
+    for (int i = 0; i < components; i++) {
+        const std::array<double, 3> source = {double{a[i]}, double{b[i]}, double{c[i]}};
         for (size_t k = 0; k < 3; k++) {
-            double value = source[record.corner[k]];
-            if (record.clipped) {
-                const auto& beta = target.barycentric(id, k);
+            double value = source[corners.record.corner[k]];
+            if (corners.record.clipped) {
+                const auto& beta = corners.target.barycentric(corners.id, k);
                 value = beta[0] * source[0] + (beta[1] * source[1] + beta[2] * source[2]);
             }
-            words[first + k] = std::fabs(value) < kSmallestAttribute ? 0.0 : value;
+            *words++ = std::fabs(value) < kSmallestAttribute ? 0.0 : value;
         }
-    };
-    const auto setVectors = [&](size_t first, const auto& values, int components) {
-        const auto &a = values[index[0]], &b = values[index[1]], &c = values[index[2]];
-        for (int i = 0; i < components; i++)
-            setAttribute(first + 3 * static_cast<size_t>(i), a[i], b[i], c[i]);
-    };
-    setVectors(kNormal, placed.normals, 3);
-    setVectors(kPosition, placed.positions, 3);
-    if (!placed.mesh->uv_m.empty()) setVectors(kSurface, placed.mesh->uv_m, 2);
+    }
+}
 
-    // Each rounded once; the power of two is exact.
-    Stored* to = &words_[number * kWords];
+// Each rounded once. count: a multiple of N.
+template <class T>
+void TileTriangles<T>::storeWords(const double* words, size_t count, Stored* to) {
     if constexpr (std::is_same_v<Stored, float>)
-        for (size_t i = 0; i < kWords; i++) to[i] = static_cast<float>(words[i]);
+        for (size_t i = 0; i < count; i++) to[i] = static_cast<float>(words[i]);
     else
-        for (size_t i = 0; i < kWords; i += N)
+        for (size_t i = 0; i < count; i += N)
             TexelFetch<T>::store(TexelFetch<T>::contiguous(&words[i]), to + i, N);
-    to[kAreaScale] = static_cast<Stored>(scale.areaScale);
+}
+
+template <class T>
+void TileTriangles<T>::set(size_t number, const RenderTarget& target, uint32_t id, const PlacedMesh& placed) {
+    const Corners corners = cornersOf(target, id, placed);
+    setEdges(number, corners.record);
+    const WeightScale scale = weightScale(corners.record);
+    std::array<double, kWords> words{};
+    for (size_t k = 0; k < 3; k++) words[kQ + k] = scale.q[k];
+    words[kFacing] = corners.record.front ? 1.0 : -1.0;
+    gather(corners, placed.normals, 3, &words[kNormal]);
+    gather(corners, placed.positions, 3, &words[kPosition]);
+    if (!placed.mesh->uv_m.empty()) gather(corners, placed.mesh->uv_m, 2, &words[kSurface]);
+    storeWords(words.data(), kWords, &words_[number * kWords]);
+    // A power of two is exact.
+    words_[number * kWords + kAreaScale] = static_cast<Stored>(scale.areaScale);
+}
+
+template <class T>
+void TileTriangles<T>::setRadiance(size_t number, const RenderTarget& target, uint32_t id,
+                                   const PlacedMesh& placed, const VertexRadiance& radiance) {
+    radiance_.resize(std::max(radiance_.size(), (number + 1) * kRadianceWords + N));
+    const Corners corners = cornersOf(target, id, placed);
+    const auto& side = radiance.sides[corners.record.front ? 0 : 1];
+    std::array<double, kRadianceWords> words{};
+    gather(corners, side.diffuse, 3, &words[0]);
+    gather(corners, side.specular, 3, &words[kSpecularRadiance]);
+    storeWords(words.data(), kRadianceWords, &radiance_[number * kRadianceWords]);
 }
 
 // A stored row as numbers of T.

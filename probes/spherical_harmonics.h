@@ -56,7 +56,7 @@ struct SphericalHarmonics {
 
 // Largest error of a harmonic of degree <= 10 in double and float against exact arithmetic, unit direction
 // exact.
-inline constexpr double kHarmonicDoubleError = 0x1p-46, kHarmonicFloatError = 0x1p-17;
+inline constexpr double kHarmonicDoubleError = 0x1p-47, kHarmonicFloatError = 0x1p-19;
 
 // Errors of an arithmetic, for radiance in the normal range of its format: the largest error of a projected
 // coefficient of degree <= 4, relative to the mean radiance times 2 sqrt(pi), is four times this, that of L00

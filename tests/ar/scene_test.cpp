@@ -163,6 +163,32 @@ TEST_CASE("DefaultsFillWhatIsLeftOut") {
     CHECK(scene.meshes[0].objectToWorld == std::vector<glm::dmat4>{glm::dmat4(1.0)});
 }
 
+TEST_CASE("PlacedLightsAreReadAsWritten") {
+    const SceneFolder folder;
+    const Scene scene = folder.load(
+        sceneText() +
+        "[[light]]\nkind = 'point'\nposition = [1, 2, 3]\nintensity = [4, 5, 6]\n"
+        "[[light]]\nkind = 'spot'\nposition = [1, 2, 3]\nintensity = [4, 5, 6]\ndirection = [0, 0, -2]\n"
+        "outer_deg = 60\ninner_deg = 30\n");
+    REQUIRE(scene.lights.size() == 3);
+    CHECK(scene.lights[1].kind == LightKind::point);
+    CHECK(scene.lights[1].position == glm::dvec3(1, 2, 3));
+    CHECK(scene.lights[1].intensity == glm::dvec3(4, 5, 6));
+    CHECK(scene.lights[2].kind == LightKind::spot);
+    CHECK(scene.lights[2].direction == glm::dvec3(0, 0, -1));
+    CHECK(scene.lights[2].outer_deg == 60);
+    CHECK(scene.lights[2].inner_deg == 30);
+    const auto refused = [&](const std::string& cones) {
+        return errorOf(folder, sceneText() +
+                                   "[[light]]\nkind = 'spot'\nposition = [1, 2, 3]\nintensity = [4, 5, 6]\n"
+                                   "direction = [0, 0, -2]\n" +
+                                   cones);
+    };
+    CHECK(refused("outer_deg = 90\n").find("'outer_deg'") != std::string::npos);
+    CHECK(refused("inner_deg = 20\nouter_deg = 20\n").find("must be at least 0.01 below 'outer_deg'") !=
+          std::string::npos);
+}
+
 TEST_CASE("InstancesAreAppliedAfterTheMeshsOwnTransform") {
     const SceneFolder folder;
     const Scene scene = folder.load(
@@ -282,7 +308,16 @@ TEST_CASE("WrongTypesAndRangesNameTheKeyAndWhatItMayBe") {
         {41, "size_m = [4, 0]", 41, {"'size_m'", "(0, "}},
         {41, "size_m = 4", 41, {"'size_m'", "2 numbers"}},
         {47, "irradiance = [1, 1, -1]", 47, {"'irradiance'", "-1"}},
-        {45, "kind = 'point'", 45, {"'kind'", "directional"}},
+        {45, "kind = 'area'", 45, {"'kind'", "directional"}},
+        {45, "kind = 'point'", 47, {"'irradiance'", "not used by kind 'point'"}},
+        {45,
+         "kind = 'directional'\nposition = [0, 0, 0]",
+         46,
+         {"'position'", "not used by kind 'directional'"}},
+        {45,
+         "kind = 'spot'\nposition = [0, 1, 0]\nintensity = [1, 1, 1]",
+         49,
+         {"'irradiance'", "not used by kind 'spot'"}},
         {31, "file = ''", 31, {"'file'", "empty"}},
     });
 }

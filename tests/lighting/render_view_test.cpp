@@ -23,27 +23,26 @@ View squareView(int size) {
     return cameraView(camera);
 }
 
+enum class Lights { perPixel, perVertex };
+
 struct Rendered {
     ShadedImages images;
     ShadeStatistics statistics;
 };
 
 Rendered render(const SurfaceScene& scene, const View& view, const ShadeRequest& request,
-                const char* profileName = "f32", int samples = 1, const RasterOptions& options = {}) {
+                const char* profileName = "f32", int samples = 1, const RasterOptions& options = {},
+                Lights lights = Lights::perPixel) {
     const Profile& profile = *findProfile(profileName);
     const auto placed = placeMeshes(scene, profile.vertex, options.threads);
     const VisibleScene visible = findVisible(scene, placed, view, profile, samples, options);
-    ShadeJob job;
-    job.scene = &scene;
-    job.view = &view;
-    job.target = &visible.target;
-    job.placed = &placed;
-    job.instanceOfDraw = visible.instanceOfDraw;
-    job.sceneCubes.assign(scene.instances.size(), nullptr);
+    ShadeJob job = shadeJobOf(visible, scene, placed, view, profile, options);
     job.request = request;
-    job.profile = &profile;
-    job.threads = options.threads;
-    job.tileSize = options.tileSize;
+    std::vector<VertexRadiance> radiance;
+    if (lights == Lights::perVertex) {
+        radiance = lightVerticesOf(job);
+        job.vertexRadiance = &radiance;
+    }
     Rendered result;
     result.images = shade(job, &result.statistics);
     return result;
@@ -284,15 +283,8 @@ TEST_CASE("FlushingSubnormalsChangesNoBitOfTheShading") {
     const Profile& profile = *findProfile("f32");
     const auto placed = placeMeshes(scene, profile.vertex, 1);
     const VisibleScene visible = findVisible(scene, placed, view, profile, 1, {});
-    ShadeJob job;
-    job.scene = &scene;
-    job.view = &view;
-    job.target = &visible.target;
-    job.placed = &placed;
-    job.instanceOfDraw = visible.instanceOfDraw;
-    job.sceneCubes.assign(scene.instances.size(), nullptr);
+    ShadeJob job = shadeJobOf(visible, scene, placed, view, profile, {});
     job.request = requestOf({ShadeOutput::beauty, ShadeOutput::specular});
-    job.profile = &profile;
     const ShadedImages kept = shade(job);
     ShadedImages flushed = kept;
     for (Image<float>& image : flushed.images) image.fill(0);
@@ -302,6 +294,203 @@ TEST_CASE("FlushingSubnormalsChangesNoBitOfTheShading") {
         shadingPasses(profile.fragment).makeTileShader(job)->run({0, 0, 64, 64}, flushed, statistics);
     }
     for (size_t o = 0; o < kShadeOutputs; o++) CHECK(flushed.images[o] == kept.images[o]);
+}
+
+// A rectangle across the view at distance 2, whose corners have normals of their own: in its plane the
+// radiance of the vertices is interpolated linearly over each triangle, and in perspective where it is
+// tilted. The oracle intersects the pixel's ray with the triangle in world space.
+TEST_CASE("LightPerVertexIsInterpolatedOverTheSurface") {
+    // Snapping moves a corner by up to 2^-9 pixels in x and y; the radiance changes by up to 0.03 per pixel.
+    constexpr double kBound = 2 * 0x1p-9 * 0.03;
+    const glm::dvec3 light(0.48, 0.6, 0.64);
+    for (const float tilt : {0.0f, 1.2f}) {
+        for (const bool fromBehind : {false, true}) {
+            SurfaceScene scene;
+            SurfaceMesh mesh = test::rectangle({0, 0, -3}, {1, 0, tilt}, {0, 1, 0});
+            const glm::vec3 normals[] = {
+                {-0.6f, 0, 0.8f}, {0.6f, 0, 0.8f}, {0.6f, 0.64f, 0.48f}, {0, 0.6f, 0.8f}};
+            mesh.normals.assign(std::begin(normals), std::end(normals));
+            if (fromBehind) {
+                for (glm::vec3& n : mesh.normals) n = -n;
+                std::swap(mesh.indices[1], mesh.indices[2]);
+                std::swap(mesh.indices[4], mesh.indices[5]);
+            }
+            test::addObject(scene, mesh, test::lambertian(0.5));
+            scene.lights.push_back({light, {1, 2, 4}});
+            const View view = squareView(64);
+            const auto result = render(scene, view, requestOf({ShadeOutput::diffuse, ShadeOutput::distance}),
+                                       "f64", 1, {}, Lights::perVertex);
+            // What the four corners reflect.
+            double corner[4];
+            for (size_t k = 0; k < 4; k++) {
+                const glm::dvec3 n(normals[k]);
+                const double cosine = (n.x * light.x + n.y * light.y + n.z * light.z) /
+                                      std::sqrt(n.x * n.x + n.y * n.y + n.z * n.z);
+                corner[k] = 0.5 / kPi * std::max(0.0, cosine);
+            }
+            int seen = 0;
+            for (int y = 0; y < 64; y++) {
+                for (int x = 0; x < 64; x++) {
+                    if (std::isinf(result.images[ShadeOutput::distance].at(x, y))) continue;
+                    // (dx, dy, -1) t = (a, b, -3 + a tilt)
+                    const double dx = (x + 0.5) / 32 - 1, dy = 1 - (y + 0.5) / 32;
+                    const double t = 3 / (1 + dx * tilt), a = dx * t, b = dy * t;
+                    if (std::fabs(a - b) < 0.05) continue;  // near the diagonal either triangle
+                    const double u = (a + 1) / 2, v = (b + 1) / 2;
+                    const double expected = a > b ? (1 - u) * corner[0] + (u - v) * corner[1] + v * corner[2]
+                                                  : (1 - v) * corner[0] + u * corner[2] + (v - u) * corner[3];
+                    for (int c = 0; c < 3; c++)
+                        CHECK(std::fabs(result.images[ShadeOutput::diffuse].at(x, y, c) -
+                                        expected * (c == 0   ? 1
+                                                    : c == 1 ? 2
+                                                             : 4)) < kBound);
+                    seen++;
+                }
+            }
+            CHECK(seen > 300);
+        }
+    }
+}
+
+// A white plate that faces a point light at distance h, d beside the foot: I cos / r^2 = I h / (h^2 +
+// d^2)^(3/2). Inside the inner cone of a spot the same, outside the outer cone nothing, between them 3 t^2 -
+// 2 t^3.
+TEST_CASE("PointAndSpotLightsFollowTheInverseSquare") {
+    constexpr double kBound = 4e-7;  // relative, of the values in float
+    SurfaceScene scene;
+    test::addObject(scene, test::rectangle({0, 0, -4}, {4, 0, 0}, {0, 4, 0}), test::lambertian(1));
+    SurfaceLight light;
+    light.kind = LightKind::point;
+    light.position_m = {0.5, -0.25, -2};
+    light.intensity = {kPi, 2 * kPi, 4 * kPi};
+    light.axis = {0, 0, -1};
+    light.cosInner = 0.9;
+    light.cosOuter = 0.8;
+    for (const LightKind kind : {LightKind::point, LightKind::spot}) {
+        light.kind = kind;
+        scene.lights = {light};
+        const auto result = render(scene, squareView(32), requestOf({ShadeOutput::diffuse}), "f64");
+        int parts[3] = {0, 0, 0};
+        for (int y = 0; y < 32; y++) {
+            for (int x = 0; x < 32; x++) {
+                const double px = 4 * ((x + 0.5) / 16 - 1), py = 4 * (1 - (y + 0.5) / 16);
+                const double dx = px - 0.5, dy = py + 0.25, h = 2;
+                const double r = std::sqrt(h * h + dx * dx + dy * dy);
+                const double t = std::clamp((h / r - 0.8) / (0.9 - 0.8), 0.0, 1.0);
+                const double part = kind == LightKind::point ? 1.0 : t * t * (3 - 2 * t);
+                parts[part == 0 ? 0 : part == 1 ? 2 : 1]++;
+                for (int c = 0; c < 3; c++)
+                    CHECK(result.images[ShadeOutput::diffuse].at(x, y, c) ==
+                          doctest::Approx(part * h / (r * r * r) * (1 << c)).epsilon(kBound));
+            }
+        }
+        if (kind == LightKind::spot)
+            for (const int count : parts) CHECK(count > 10);
+    }
+}
+
+// At the light itself, and with a cone that no point is in, the result is 0 and finite in every profile.
+TEST_CASE("ALightInTheSurfaceIsDarkAndFinite") {
+    SurfaceScene scene;
+    test::addObject(scene, test::rectangle({0, 0, -4}, {4, 0, 0}, {0, 4, 0}), test::lambertian(1));
+    SurfaceLight light;
+    light.kind = LightKind::point;
+    light.position_m = {0, 0, -4};
+    light.intensity = glm::dvec3(1);
+    scene.lights = {light};
+    for (const char* profile : kAllProfiles) {
+        const auto result = render(scene, squareView(7), requestOf({ShadeOutput::diffuse}), profile);
+        CHECK(result.images[ShadeOutput::diffuse].at(3, 3) == 0.0f);
+        for (const float v : result.images[ShadeOutput::diffuse].values()) CHECK(std::isfinite(v));
+    }
+}
+
+// A visibility of each point of 0, 1/2 and 1 takes that part of the light, and points and normals are those
+// of the surface.
+TEST_CASE("VisibilityScalesEachLightAndSeesTheSurface") {
+    struct Halves final : LightVisibility {
+        bool casts(size_t light) const override { return light == 1; }
+        void find(size_t, const LitPoints& points, std::span<double> visibility) const override {
+            for (size_t i = 0; i < points.size(); i++) {
+                if (points.instance[i] == std::numeric_limits<uint32_t>::max()) continue;
+                CHECK(points.position_m[2][i] == doctest::Approx(-4).epsilon(1e-6));
+                CHECK(points.faceNormal[2][i] == 1.0);
+                CHECK(points.normal[2][i] == 1.0);
+                CHECK(points.instance[i] == 0);
+                // Pixels of 1/8 metre at this distance.
+                CHECK(points.position_m[0][i] ==
+                      doctest::Approx((points.x_px[i] + 0.5) / 4 - 4).epsilon(1e-5));
+                visibility[i] = points.x_px[i] % 3 / 2.0;
+            }
+        }
+    };
+    SurfaceScene scene;
+    test::addObject(scene, test::rectangle({0, 0, -4}, {4, 0, 0}, {0, 4, 0}), test::lambertian(1));
+    for (const bool mirrored : {false, true}) {
+        if (mirrored) {
+            scene.instances[0].toWorld[0][0] = -1;
+            scene.instances[0].normalToWorld[0][0] = -1;
+        }
+        scene.lights = {{{0, 0, 1}, glm::dvec3(1)}};
+        const View view = squareView(32);
+        const Profile& profile = *findProfile("f32");
+        const auto placed = placeMeshes(scene, profile.vertex, 1);
+        const VisibleScene visible = findVisible(scene, placed, view, profile, 1, {});
+        const auto diffuse = [&](const LightVisibility* visibility) {
+            ShadeJob job = shadeJobOf(visible, scene, placed, view, profile, {});
+            job.request = requestOf({ShadeOutput::diffuse});
+            job.visibility = visibility;
+            return shade(job)[ShadeOutput::diffuse];
+        };
+        const Image<float> one = diffuse(nullptr);
+        scene.lights.push_back({{0, 0, 1}, glm::dvec3(1)});
+        const Halves halves;
+        const Image<float> both = diffuse(&halves);
+        for (int y = 0; y < 32; y++)
+            for (int x = 0; x < 32; x++)
+                CHECK(both.at(x, y) == one.at(x, y) + one.at(x, y) * static_cast<float>(x % 3) / 2);
+    }
+}
+
+// A light that shines along the normals of a flat surface is the same at every vertex and pixel.
+TEST_CASE("LightPerVertexOfAFlatSurfaceIsThatPerPixel") {
+    SurfaceScene scene = test::box(2, 3, 4);
+    scene.lights.push_back({{0.6, 0.0, 0.8}, {1, 2, 3}});
+    for (const char* profile : {"f32", "f64"}) {
+        const ShadeRequest request = requestOf({ShadeOutput::diffuse});
+        const auto pixels = render(scene, squareView(48), request, profile);
+        const auto vertices = render(scene, squareView(48), request, profile, 1, {}, Lights::perVertex);
+        for (size_t i = 0; i < pixels.images[ShadeOutput::diffuse].values().size(); i++)
+            CHECK(pixels.images[ShadeOutput::diffuse].values()[i] ==
+                  doctest::Approx(vertices.images[ShadeOutput::diffuse].values()[i]).epsilon(2e-7));
+    }
+}
+
+// A mirror below Blinn-Phong's lobe [Karlsson2005]: the components are those of the two materials alone.
+TEST_CASE("ReflectanceAddsAMirrorToBlinnPhong") {
+    SurfaceScene scene = test::box(2, 3, 4);
+    scene.environment.constant = {0.5, 1, 2};
+    scene.lights.push_back({{0.6, 0.0, 0.8}, {1, 2, 3}});
+    for (SurfaceMaterial& material : scene.materials) {
+        material.kind = MaterialKind::blinnPhong;
+        material.specular = glm::dvec3(0.25);
+        material.exponent = 12;
+    }
+    const ShadeRequest request = requestOf({ShadeOutput::beauty, ShadeOutput::ambient, ShadeOutput::diffuse,
+                                            ShadeOutput::specular, ShadeOutput::mirror});
+    const auto plain = render(scene, squareView(32), request);
+    for (SurfaceMaterial& material : scene.materials) material.reflectance = {0.5, 0.25, 0.125};
+    const auto combined = render(scene, squareView(32), request);
+    for (const ShadeOutput output : {ShadeOutput::ambient, ShadeOutput::diffuse, ShadeOutput::specular})
+        CHECK(combined.images[output] == plain.images[output]);
+    for (int y = 0; y < 32; y++)
+        for (int x = 0; x < 32; x++)
+            for (int c = 0; c < 3; c++) {
+                CHECK(plain.images[ShadeOutput::mirror].at(x, y, c) == 0.0f);
+                CHECK(combined.images[ShadeOutput::mirror].at(x, y, c) == 0.25f);
+                CHECK(combined.images[ShadeOutput::beauty].at(x, y, c) ==
+                      plain.images[ShadeOutput::beauty].at(x, y, c) + 0.25f);
+            }
 }
 
 // Each profile's distance from the truth, largest first: bf16, fp16, fp24, fp32, and almost none in double.

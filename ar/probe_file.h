@@ -1,0 +1,40 @@
+// Light probes as image files.
+//
+// Which mapping a file has is told by the caller, or by the file: Etalon's own attributes, OpenEXR's envmap
+// attribute, or the shape of the image: 2:1 is a lat-long map, 1:6 a strip of cube faces in OpenEXR's layout,
+// 4:3 and 3:4 crosses. A square image may be an angular map, a mirror ball or octahedral, and must be told.
+//
+// Attributes of EXR files that Etalon writes, besides envmap: "etalon.mapping" (latlong, cube, angular,
+// mirror_ball, octahedral), "etalon.ballDistance" (radii, or inf), "etalon.rotation" (nine numbers, the rows
+// of the matrix from the probe's frame to the world), "etalon.position" (metres). Channels "distance"
+// (metres) and "valid" (0 or 1) belong to the probe where they are present.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "probes/cube_layout.h"
+#include "probes/probe.h"
+
+namespace etalon {
+
+inline constexpr const char* kMappingNames[] = {"latlong", "cube", "angular", "mirror_ball", "octahedral"};
+
+// What the caller knows about a file; what is not given is taken from the file.
+struct ProbeFileOptions {
+    std::optional<Mapping> mapping;
+    std::optional<CubeLayout> layout;  // of a cube's file
+    std::optional<double> ballDistance_radii;
+};
+
+// The probe in a file. InputError "path: reason" as readRgb (ar/image_io.h), for an image whose shape does
+// not fit the mapping, and for attributes that are not what they should be.
+Probe loadProbe(const std::filesystem::path& path, const ProbeFileOptions& options = {});
+
+// The bytes of an EXR file with the probe; a cube is a strip of faces in OpenEXR's layout, unless `layout`
+// says otherwise.
+std::vector<std::byte> encodeProbe(const Probe& probe, CubeLayout layout = CubeLayout::openExrStrip);
+
+}  // namespace etalon

@@ -1,0 +1,60 @@
+#include "lighting/vertex_lighting.h"
+
+#include "lighting/surface_lighting.h"
+#include "numeric/number_lanes.h"
+
+namespace etalon {
+namespace {
+
+template <class S>
+void lightIn(const SurfaceScene& scene, const SurfaceMaterial& material, const PlacedMesh& placed,
+             const glm::dvec3& eye, size_t begin, size_t count, VertexRadiance& radiance) {
+    using T = Native<S>;
+    using Lighting = SurfaceLighting<T>;
+    using vec3 = typename Lighting::vec3;
+    Lighting lighting(scene);
+    typename Lighting::K kernels;
+    forEachLaneGroup<NumberTraits<T>::lanes>(count, [&](size_t first, int active) {
+        const auto vertex = [&](int lane) {
+            return begin + first + static_cast<size_t>(lane < active ? lane : active - 1);
+        };
+        const auto load = [&](const auto& values) {
+            const auto component = [&](int c) {
+                return generateNumber<T>([&](int i) { return values[vertex(i)][c]; });
+            };
+            return vec3(component(0), component(1), component(2));
+        };
+        const auto store = [&](const vec3& value, std::vector<glm::dvec3>& to) {
+            for (int i = 0; i < active; i++)
+                to[vertex(i)] = {numberLane(value.x, i), numberLane(value.y, i), numberLane(value.z, i)};
+        };
+        const vec3 n = kernels.unit3(load(placed.normals));
+        const vec3 position = load(placed.positions);
+        const vec3 toEye = kernels.unit3(kernels.sub3(Lighting::constant(eye), position));
+        const auto coordinate = [&](int c) {
+            return generateNumber<T>(
+                [&](int i) { return placed.mesh->uv_m.empty() ? 0.0 : placed.mesh->uv_m[vertex(i)][c]; });
+        };
+        const vec3 surface = lighting.surfaceColour(material, coordinate(0), coordinate(1));
+        for (size_t side = 0; side < radiance.sides.size(); side++) {
+            const auto reflected =
+                lighting.reflected(material, {position, kernels.scale3(n, T(side == 0 ? 1.0 : -1.0)), toEye},
+                                   surface, true, material.kind == MaterialKind::blinnPhong);
+            store(reflected.diffuse, radiance.sides[side].diffuse);
+            store(reflected.specular, radiance.sides[side].specular);
+        }
+    });
+}
+
+}  // namespace
+
+void lightVertices(RasterReal real, const SurfaceScene& scene, const SurfaceMaterial& material,
+                   const PlacedMesh& placed, const glm::dvec3& eye, size_t begin, size_t count,
+                   VertexRadiance& radiance) {
+    if (real == RasterReal::fp32)
+        lightIn<float>(scene, material, placed, eye, begin, count, radiance);
+    else
+        lightIn<double>(scene, material, placed, eye, begin, count, radiance);
+}
+
+}  // namespace etalon

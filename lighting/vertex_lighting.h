@@ -1,0 +1,29 @@
+// Per-vertex (Gouraud) lighting: what the lights reflect from each vertex, in the profile's vertex
+// arithmetic, for fragments to interpolate. Compiled once per level; callers go through
+// lighting/lighting_passes.h.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "lighting/geometry.h"
+#include "lighting/surface_scene.h"
+#include "raster/render_target.h"
+
+namespace etalon {
+
+// Of each vertex of a placed mesh, on its front side [0] and, with the normal turned round, on its back [1].
+// The doubles hold values of the vertex arithmetic.
+struct VertexRadiance {
+    struct Side {
+        std::vector<glm::dvec3> diffuse, specular;
+    };
+    std::array<Side, 2> sides;
+};
+
+// Lights vertices begin .. begin + count - 1 as seen from `eye`; the sides have the size of the mesh.
+void lightVertices(RasterReal real, const SurfaceScene& scene, const SurfaceMaterial& material,
+                   const PlacedMesh& placed, const glm::dvec3& eye, size_t begin, size_t count,
+                   VertexRadiance& radiance);
+
+}  // namespace etalon

@@ -1,0 +1,171 @@
+#include "probes/median_cut.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "numeric/check.h"
+#include "numeric/elementary.h"
+#include "numeric/parallel.h"
+#include "probes/latlong.h"
+#include "probes/probe_passes.h"
+#include "probes/summed_area.h"
+
+namespace etalon {
+namespace {
+
+constexpr double kPi = 0x1.921fb54442d18p+1;
+
+// A place in the image in texels, from the upper left corner.
+struct ImagePoint {
+    double x, y;
+};
+
+ImagePoint middleOf(const TexelRegion& r) { return {0.5 * (r.x0 + r.x1), 0.5 * (r.y0 + r.y1)}; }
+
+double latitude_rad(double y, int height) { return 0.5 * kPi * ((height - 2.0 * y) / height); }
+
+glm::dvec3 latLongDirection(const ImagePoint& p, int width, int height) {
+    const double longitude = kPi * ((width - 2.0 * p.x) / width), latitude = latitude_rad(p.y, height);
+    const double ring = cosOf(latitude);
+    return {sinOf(longitude) * ring, sinOf(latitude), cosOf(longitude) * ring};
+}
+
+bool isWider(const TexelRegion& r, const EnergyTable& table, LongerSide side) {
+    const double angle = 2.0 * r.width() / table.width();
+    const double along =
+        side == LongerSide::angle ? angle : angle * cosOf(latitude_rad(middleOf(r).y, table.height()));
+    return along > static_cast<double>(r.height()) / table.height();
+}
+
+// The place first < i < last where sumUpTo(i) is nearest to half of `whole`.
+template <class SumUpTo>
+int evenCut(int first, int last, double whole, SumUpTo&& sumUpTo) {
+    int best = first + 1;
+    double least = std::numeric_limits<double>::infinity();
+    for (int i = first + 1; i < last; i++) {
+        const double difference = std::abs(2.0 * sumUpTo(i) - whole);
+        if (difference < least) least = difference, best = i;
+    }
+    return best;
+}
+
+// Appends the parts of a region, or the region if it is one texel.
+void cutInTwo(const TexelRegion& r, const EnergyTable& table, LongerSide side,
+              std::vector<TexelRegion>& out) {
+    if (r.width() == 1 && r.height() == 1) return out.push_back(r);
+    const double whole = table.sum(r);
+    const bool isDark = !(whole > table.noise());
+    const bool cutsColumns = r.height() == 1 || (r.width() > 1 && isWider(r, table, side));
+    TexelRegion before = r, after = r;
+    if (cutsColumns) {
+        before.x1 = after.x0 = isDark ? r.x0 + r.width() / 2 : evenCut(r.x0, r.x1, whole, [&](int x) {
+            return table.sum({r.x0, r.y0, x, r.y1});
+        });
+    } else {
+        before.y1 = after.y0 = isDark ? r.y0 + r.height() / 2 : evenCut(r.y0, r.y1, whole, [&](int y) {
+            return table.sum({r.x0, r.y0, r.x1, y});
+        });
+    }
+    out.push_back(before);
+    out.push_back(after);
+}
+
+std::vector<TexelRegion> cutRegions(const EnergyTable& table, const MedianCut& options) {
+    std::vector<TexelRegion> regions = {{0, 0, table.width(), table.height()}};
+    for (int level = 0; level < std::min(options.log2Count, kMaxLog2Lights); level++) {
+        std::vector<TexelRegion> next;
+        next.reserve(2 * regions.size());
+        for (const TexelRegion& region : regions) cutInTwo(region, table, options.side, next);
+        if (next.size() == regions.size()) break;
+        regions = std::move(next);
+    }
+    return regions;
+}
+
+ImagePoint placeOf(const TexelRegion& r, const EnergyTable& table, LightPlace place) {
+    const double whole = table.sum(r);
+    if (place == LightPlace::centre || !(whole > table.noise())) return middleOf(r);
+    // Sum of (i + 1/2) e_i, e_i the energy of column or row i, from the energies of all columns up to i.
+    double x = (r.x1 - 0.5) * whole, y = (r.y1 - 0.5) * whole;
+    for (int i = r.x0 + 1; i < r.x1; i++) x -= table.sum({r.x0, r.y0, i, r.y1});
+    for (int i = r.y0 + 1; i < r.y1; i++) y -= table.sum({r.x0, r.y0, r.x1, i});
+    return {std::clamp(x / whole, r.x0 + 0.5, r.x1 - 0.5), std::clamp(y / whole, r.y0 + 0.5, r.y1 - 0.5)};
+}
+
+// The radiance with black texels where it is not valid.
+Image<float> maskedRadiance(const Probe& probe) {
+    Image<float> radiance = probe.radiance[0];
+    for (int c = 0; c < 3; c++)
+        for (size_t i = 0; i < radiance.pixelCount(); i++)
+            if (probe.valid[0].values()[i] == 0) radiance.plane(c)[i] = 0.0f;
+    return radiance;
+}
+
+std::optional<glm::dvec3> positionAt(const Probe& probe, const ImagePoint& p, const glm::dvec3& direction) {
+    if (probe.distance_m.empty()) return std::nullopt;
+    const Image<float>& distance = probe.distance_m[0];
+    const int x = std::min(static_cast<int>(p.x), distance.width() - 1),
+              y = std::min(static_cast<int>(p.y), distance.height() - 1);
+    const double metres = distance.at(x, y);
+    if (!(metres > 0.0 && metres <= std::numeric_limits<double>::max())) return std::nullopt;
+    return probe.position_m + metres * direction;
+}
+
+}  // namespace
+
+std::vector<double> texelWeights(int width, int height, TexelWeight weight) {
+    ETALON_CHECK(width >= 1 && height >= 1, "{}x{}", width, height);
+    const LatLongGrid grid(width, height);
+    const double step = 2.0 * kPi / width * (kPi / height);
+    std::vector<double> weights;
+    for (int y = 0; y < height; y++) switch (weight) {
+            case TexelWeight::exact:
+                weights.push_back(grid.solidAngle_sr(y));
+                break;
+            case TexelWeight::midpoint:
+                weights.push_back(step * sinOf(kPi * (y + 0.5) / height));
+                break;
+            case TexelWeight::edge:
+                weights.push_back(step * sinOf(kPi * y / height));
+                break;
+            case TexelWeight::uniform:
+                weights.push_back(4.0 * kPi / width / height);
+                break;
+        }
+    return weights;
+}
+
+LightsOfProbe medianCutLights(const Probe& probe, const MedianCut& options, int threads) {
+    ETALON_CHECK(probe.shape.mapping == Mapping::latLong && options.log2Count >= 0, "mapping {}, 2^{} lights",
+                 static_cast<int>(probe.shape.mapping), options.log2Count);
+    const int width = probe.shape.width, height = probe.shape.height;
+    Image<float> masked;
+    if (!probe.valid.empty()) masked = maskedRadiance(probe);
+    const Image<float>& radiance = probe.valid.empty() ? probe.radiance[0] : masked;
+    const std::vector<double> weights = texelWeights(width, height, options.weight);
+    const std::vector<double> solidAngles = texelWeights(width, height, TexelWeight::exact);
+    const EnergyTable table(radiance, weights, threads);
+    const std::vector<TexelRegion> regions = cutRegions(table, options);
+
+    LightsOfProbe result;
+    result.lights.resize(regions.size());
+    std::vector<size_t> uncounted(regions.size());
+    parallelFor(regions.size(), threads, [&](size_t i) {
+        const TexelRegion& r = regions[i];
+        ProbeLight& light = result.lights[i];
+        light.region = r;
+        const RegionSums sums = probePasses().energy.regionSums(radiance, r, weights.data());
+        light.energy = sums.energy;
+        uncounted[i] = sums.uncountedValues;
+        for (int y = r.y0; y < r.y1; y++)
+            light.solidAngle_sr += solidAngles[static_cast<size_t>(y)] * r.width();
+        const ImagePoint point = placeOf(r, table, options.place);
+        light.direction = probe.rotation * latLongDirection(point, width, height);
+        light.position_m = positionAt(probe, point, light.direction);
+    });
+    for (const size_t count : uncounted) result.uncountedValues += count;
+    return result;
+}
+
+}  // namespace etalon
