@@ -10,6 +10,8 @@
 #include "bench/measure.h"
 #include "bench/passes.h"
 #include "numeric/isa.h"
+#include "probes/irradiance.h"
+#include "probes/latlong.h"
 #include "raster/blur.h"
 
 namespace etalon::bench {
@@ -135,6 +137,46 @@ void addBlur(const Way& way) {
     });
 }
 
+Probe latLongProbe() {
+    Probe probe;
+    probe.shape = {Mapping::latLong, kLatLongWidth, kLatLongHeight};
+    probe.radiance.push_back(latLongInput());
+    return probe;
+}
+
+// Pixels are texels of the probe; five bands.
+void addHarmonics(const Way& way) {
+    const auto addProjection = [&](const std::string& name, bool isCube) {
+        add(name, way, [=](benchmark::State& state) {
+            Probe probe = latLongProbe();
+            if (isCube) {
+                const CubeMap<float> cube = cubeFromLatLong(probe.radiance[0], kLatLongCubeSize);
+                probe.shape = {Mapping::cube, kLatLongCubeSize, kLatLongCubeSize};
+                probe.radiance.assign(cube.faces.begin(), cube.faces.end());
+            }
+            const size_t texels = probe.radiance.size() * probe.radiance[0].pixelCount();
+            const Amount amount{.pixels = static_cast<double>(texels),
+                                .bytes_touched = texels * kRadiance_bytes};
+            measure(state, amount, [&] { return projectHarmonics(probe, 4, way.threads); });
+        });
+    };
+    addProjection("sh5-of-latlong/1024", false);
+    addProjection("sh5-of-cube/256", true);
+}
+
+// Pixels are pairs of texels.
+void addIrradiance(const Way& way) {
+    add("irradiance/1024-to-128", way, [=](benchmark::State& state) {
+        const Probe probe = latLongProbe();
+        const ProbeShape shape{Mapping::latLong, 16, 8};
+        const size_t texels = probe.radiance[0].pixelCount();
+        const Amount amount{.pixels = static_cast<double>(texels) * shape.width * shape.height,
+                            .bytes_touched = texels * kRadiance_bytes};
+        const Profile& found = *findProfile(way.profile);
+        measure(state, amount, [&] { return irradianceProbe(probe, shape, found.fragment, way.threads); });
+    });
+}
+
 // Touches the texels of the lat-long image and of the cube map.
 void addCubeFromLatLong(const Way& way) {
     add("latlong-to-cube/1024", way, [=](benchmark::State& state) {
@@ -162,6 +204,8 @@ void addAll() {
         addCube(way);
         addBlur(way);
         addCubeFromLatLong(way);
+        addHarmonics(way);
+        addIrradiance(way);
     }
     for (const IsaLevel level : usableIsaLevels()) {
         const Way way{.level = level};

@@ -61,6 +61,36 @@ inline glm::dmat3 randomRotation(RandomNumbers& random) {
     return rotationAbout(axis, random.uniform(-3, 3));
 }
 
+// Directions and weights that integrate harmonics exactly: `points` heights of Gauss and Legendre (degrees up
+// to 2 points - 1) times `columns` longitudes (orders up to columns - 1).
+struct WeightedDirection {
+    glm::dvec3 direction;
+    double weight;
+};
+inline std::vector<WeightedDirection> exactQuadrature(int points, int columns) {
+    constexpr double kPi = 0x1.921fb54442d18p+1;
+    std::vector<WeightedDirection> list;
+    for (int i = 0; i < points; i++) {
+        long double z = std::cos(kPi * (i + 0.75) / (points + 0.5)), slope = 0;
+        for (int step = 0; step < 10; step++) {
+            long double before = 1, value = z;
+            for (int n = 2; n <= points; n++) {
+                const long double next = ((2 * n - 1) * z * value - (n - 1) * before) / n;
+                before = value, value = next;
+            }
+            slope = points * (z * value - before) / (z * z - 1);
+            z -= value / slope;
+        }
+        const auto sine = static_cast<double>(std::sqrt(1 - z * z));
+        for (int k = 0; k < columns; k++) {
+            const double phi = 2 * kPi * k / columns;
+            list.push_back({{sine * std::cos(phi), sine * std::sin(phi), static_cast<double>(z)},
+                            static_cast<double>(2 / ((1 - z * z) * slope * slope)) * 2 * kPi / columns});
+        }
+    }
+    return list;
+}
+
 inline constexpr ProbeShape kSmallShapes[] = {
     {Mapping::latLong, 37, 19}, {Mapping::latLong, 16, 8}, {Mapping::cube, 9, 9}};
 
