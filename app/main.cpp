@@ -23,6 +23,7 @@ int main(int argc, char** argv) {
     etalon::configureCommand(app);
     etalon::addRender(app, exitCode);
     etalon::addPlan(app, exitCode);
+    etalon::addProbe(app, exitCode);
     etalon::addCompare(app, exitCode);
     etalon::addCheck(app, exitCode, golden);
     etalon::addAccept(app, exitCode, golden);

@@ -1,10 +1,10 @@
 #include <cmath>
 #include <memory>
 
+#include "app/probe_options.h"
 #include "app/report.h"
 #include "app/scene_options.h"
 #include "app/verbs.h"
-#include "ar/probe_file.h"
 #include "probes/harmonics_layout.h"
 #include "probes/harmonics_lobes.h"
 
@@ -12,7 +12,8 @@ namespace etalon {
 namespace {
 
 struct ProbeShVerb {
-    std::string file, of = "radiance", window = "none", layout;
+    ProbeInput input;
+    std::string of = "radiance", window = "none", layout;
     int degree = 2, threads = 0;
     double width = 0;
     bool json = false;
@@ -55,16 +56,16 @@ std::string tableOf(const SphericalHarmonics& f) {
 }
 
 ExitCode runProbeSh(const ProbeShVerb& verb) {
-    const Probe probe = loadProbe(verb.file);
+    const Probe probe = verb.input.load();
     SphericalHarmonics f = projectHarmonics(probe, verb.degree, verb.threads);
     for (const glm::dvec3& c : f.coefficients)
         if (!std::isfinite(c.x) || !std::isfinite(c.y) || !std::isfinite(c.z))
-            throw InputError(fmt::format("{}: NaN or infinite radiance has no harmonics", verb.file));
+            throw InputError(fmt::format("{}: NaN or infinite radiance has no harmonics", verb.input.file));
     if (verb.of == "irradiance") f = irradianceOfHarmonics(f);
     const Windowed w = windowOf(verb, f);
     const double smallest = smallestValue(w.harmonics);
     if (verb.json) {
-        nlohmann::ordered_json json = {{"file", verb.file},
+        nlohmann::ordered_json json = {{"file", verb.input.file},
                                        {"of", verb.of},
                                        {"degree", verb.degree},
                                        {"window", verb.window},
@@ -94,7 +95,7 @@ void addProbeSh(CLI::App& probe, ExitCode& exitCode) {
     const auto options = std::make_shared<ProbeShVerb>();
     CLI::App* verb = probe.add_subcommand(
         "sh", "Spherical harmonics of a probe: world axes, +Y up, with Condon-Shortley phase.");
-    verb->add_option("FILE", options->file, "Image file of a probe")->required();
+    options->input.addTo(*verb);
     verb->add_option("--degree", options->degree, "Bands 0 .. degree")
         ->check(CLI::Range(0, kMaxHarmonicDegree))
         ->capture_default_str();
@@ -108,7 +109,7 @@ void addProbeSh(CLI::App& probe, ExitCode& exitCode) {
     verb->add_option("--window-width", options->width,
                      "hanning, lanczos: the band where the window is 0; default degree + 1")
         ->check(CLI::Range(1e-3, 1e6));
-    verb->add_option("--layout", options->layout,
+    verb->add_option("--coefficients", options->layout,
                      "Only the numbers, one per line: interleaved (R G B of each coefficient, as ARCore) or "
                      "planar (all of red first, as ARKit)")
         ->check(CLI::IsMember(kLayouts));

@@ -31,6 +31,11 @@ void addPlan(CLI::App& app, ExitCode& exitCode);
 void addCompare(CLI::App& app, ExitCode& exitCode);
 void addCheck(CLI::App& app, ExitCode& exitCode, const GoldenSupport& support);
 void addAccept(CLI::App& app, ExitCode& exitCode, const GoldenSupport& support);
+// Light probes, and the verbs of `probe`.
+void addProbe(CLI::App& app, ExitCode& exitCode);
+void addProbeConvert(CLI::App& probe, ExitCode& exitCode);
+void addProbeInfo(CLI::App& probe, ExitCode& exitCode);
+void addProbeSh(CLI::App& probe, ExitCode& exitCode);
 void addBits(CLI::App& app, ExitCode& exitCode, const std::vector<BitCase>& cases);
 
 // Settings of the command itself: name, --version, exactly one verb, unknown options are errors.

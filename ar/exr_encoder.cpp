@@ -4,6 +4,7 @@
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfIO.h>
 #include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfStandardAttributes.h>
 #include <OpenEXR/ImfStringAttribute.h>
 #include <OpenEXR/ImfThreading.h>
 
@@ -57,7 +58,10 @@ std::vector<std::byte> encodeExr(const Frame& frame) {
     Imf::Header header(frame.width, frame.height);
     header.compression() = Imf::ZIP_COMPRESSION;
     for (const auto& [name, text] : frame.metadata)
-        if (!isReserved(header, name)) header.insert(name, Imf::StringAttribute(text));
+        if (name == "envmap")
+            Imf::addEnvmap(header, text == "cube" ? Imf::ENVMAP_CUBE : Imf::ENVMAP_LATLONG);
+        else if (!isReserved(header, name))
+            header.insert(name, Imf::StringAttribute(text));
     Imf::FrameBuffer planes;
     for (const Channel& channel : frame.channels) {
         const auto type = std::holds_alternative<Image<float>>(channel.values) ? Imf::FLOAT : Imf::UINT;

@@ -183,8 +183,21 @@ Frame readWhole(const std::filesystem::path& path) {
         samples += channel.bytes;
     }
     for (const auto& [name, text] : header.texts)
-        if (!describesEncoding(name)) frame.metadata[name] = text;
+        if (name == "textureformat")
+            frame.metadata["envmap"] = text.starts_with("CubeFace") ? "cube" : "latlong";
+        else if (!describesEncoding(name))
+            frame.metadata[name] = text;
     return frame;
+}
+
+}  // namespace
+
+Frame readFrame(const std::filesystem::path& path) {
+    return withinMemory(path, [&] { return readWhole(path); });
+}
+
+Image<float> readRgb(const std::filesystem::path& path) {
+    return withinMemory(path, [&] { return rgbOf(readWhole(path), path); });
 }
 
 Image<float> rgbOf(const Frame& frame, const std::filesystem::path& path) {
@@ -204,16 +217,6 @@ Image<float> rgbOf(const Frame& frame, const std::filesystem::path& path) {
         std::ranges::copy(image->values(), rgb.plane(c).begin());
     }
     return rgb;
-}
-
-}  // namespace
-
-Frame readFrame(const std::filesystem::path& path) {
-    return withinMemory(path, [&] { return readWhole(path); });
-}
-
-Image<float> readRgb(const std::filesystem::path& path) {
-    return withinMemory(path, [&] { return rgbOf(readWhole(path), path); });
 }
 
 std::vector<std::byte> encodePng(const Image<uint8_t>& image) {

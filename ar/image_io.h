@@ -17,18 +17,22 @@ inline constexpr uint64_t kMaxFrameBytes = uint64_t{8} << 30;
 // Every channel of an EXR, HDR, TIFF, PFM or PNG file of one image. Half and float samples are read as they
 // are; 8- and 16-bit samples become code / 255 and code / 65535 with no transfer function applied and alpha
 // left as stored; uint32 samples stay uint32_t. Row 0 is the top row; the size is that of the data window.
-// metadata: the file's text attributes but for those that describe its encoding.
-// Throws InputError "path: reason", one line: missing, empty, truncated or damaged file, no image format,
-// zero or absurd size (the memory it would need is named), several or deep images, other sample types, more
-// memory needed than can be had.
+// metadata: the file's text attributes but for those that describe its encoding; OpenEXR's envmap is "envmap"
+// with "latlong" or "cube". Throws InputError "path: reason", one line: missing, empty, truncated or damaged
+// file, no image format, zero or absurd size (the memory it would need is named), several or deep images,
+// other sample types, more memory needed than can be had.
 Frame readFrame(const std::filesystem::path& path);
 
 // Three planes R, G, B; a single grey channel ("Y", or the only one besides "A") is replicated. Values as in
 // readFrame. InputError as there, and for uint32 channels and files with neither R, G and B nor grey.
 Image<float> readRgb(const std::filesystem::path& path);
 
+// The planes R, G, B of a frame that was read from `path`, with the rules and errors of readRgb.
+Image<float> rgbOf(const Frame& frame, const std::filesystem::path& path);
+
 // The bytes of an EXR file: float32 and uint32 channels under their own names, lossless zip compression, the
-// metadata as text attributes (but for the names of the format's own, such as "type"). The same frame gives
+// metadata as text attributes (but for the names of the format's own, such as
+// "type"; "envmap" with "latlong" or "cube" becomes OpenEXR's own attribute). The same frame gives
 // the same bytes. The frame must pass checkFrame and be at least 1x1.
 std::vector<std::byte> encodeExr(const Frame& frame);
 

@@ -5,9 +5,9 @@
 // 4:3 and 3:4 crosses. A square image may be an angular map, a mirror ball or octahedral, and must be told.
 //
 // Attributes of EXR files that Etalon writes, besides envmap: "etalon.mapping" (latlong, cube, angular,
-// mirror_ball, octahedral), "etalon.ballDistance" (radii, or inf), "etalon.rotation" (nine numbers, the rows
-// of the matrix from the probe's frame to the world), "etalon.position" (metres). Channels "distance"
-// (metres) and "valid" (0 or 1) belong to the probe where they are present.
+// mirror_ball, octahedral, latlong_pedersen), "etalon.ballDistance" (radii, or inf), "etalon.rotation" (nine
+// numbers, the rows of the matrix from the probe's frame to the world), "etalon.position" (metres). Channels
+// "distance" (metres) and "valid" (0 or 1) belong to the probe where they are present.
 #pragma once
 
 #include <filesystem>
@@ -15,12 +15,15 @@
 #include <string>
 #include <vector>
 
+#include "ar/frame.h"
 #include "probes/cube_layout.h"
 #include "probes/probe.h"
 
 namespace etalon {
 
-inline constexpr const char* kMappingNames[] = {"latlong", "cube", "angular", "mirror_ball", "octahedral"};
+// In the order of Mapping.
+inline constexpr const char* kMappingNames[] = {"latlong",     "cube",       "angular",
+                                                "mirror_ball", "octahedral", "latlong_pedersen"};
 
 // What the caller knows about a file; what is not given is taken from the file.
 struct ProbeFileOptions {
@@ -33,8 +36,7 @@ struct ProbeFileOptions {
 // not fit the mapping, and for attributes that are not what they should be.
 Probe loadProbe(const std::filesystem::path& path, const ProbeFileOptions& options = {});
 
-// The bytes of an EXR file with the probe; a cube is a strip of faces in OpenEXR's layout, unless `layout`
-// says otherwise.
-std::vector<std::byte> encodeProbe(const Probe& probe, CubeLayout layout = CubeLayout::openExrStrip);
+// The probe as the channels of an EXR file (encodeExr); a cube in the given layout.
+Frame frameOfProbe(const Probe& probe, CubeLayout layout = CubeLayout::openExrStrip);
 
 }  // namespace etalon

@@ -1,0 +1,113 @@
+#include <memory>
+
+#include "app/probe_options.h"
+#include "app/scene_options.h"
+#include "app/verbs.h"
+#include "ar/atomic_file.h"
+#include "ar/image_io.h"
+#include "ar/transform.h"
+#include "probes/convert.h"
+
+namespace etalon {
+namespace {
+
+const std::vector<std::string> kResamplings = {"nearest", "bilinear", "area"};
+
+struct ProbeConvertVerb {
+    ProbeInput input;
+    std::string output, to, toLayout = "openexr", resampling = "bilinear", profile = "f32";
+    int width = 0, height = 0, samples = 4, threads = 0;
+    double toBallDistance_radii = std::numeric_limits<double>::infinity(), rotation_deg = 0;
+    bool upright = false;
+};
+
+// Where nothing is given, as many texels across the horizon as the source has.
+int widthAcross(const ProbeShape& source, Mapping to) {
+    const int horizon = isLatLong(source.mapping)         ? source.width
+                        : source.mapping == Mapping::cube ? 4 * source.width
+                                                          : 2 * source.width;
+    const int width = isLatLong(to) ? horizon : to == Mapping::cube ? horizon / 4 : horizon / 2;
+    return std::max(1, width);
+}
+
+ProbeShape shapeOf(const ProbeConvertVerb& verb, const Probe& source) {
+    ProbeShape shape;
+    shape.mapping = memberOfName<Mapping>(kMappingNames, verb.to);
+    shape.width = verb.width > 0 ? verb.width : widthAcross(source.shape, shape.mapping);
+    shape.height = isLatLong(shape.mapping) ? std::max(1, shape.width / 2) : shape.width;
+    if (verb.height > 0) shape.height = verb.height;
+    if (!isLatLong(shape.mapping) && shape.height != shape.width)
+        throw InputError(
+            fmt::format("--height {}: images of the mapping {} are square", shape.height, verb.to));
+    shape.ballDistance_radii = verb.toBallDistance_radii;
+    return shape;
+}
+
+ExitCode runProbeConvert(const ProbeConvertVerb& verb) {
+    if (std::filesystem::path(verb.output).extension() != ".exr")
+        throw InputError(fmt::format("{}: probes are written as EXR files; name it .exr", verb.output));
+    AtomicFile file(verb.output);
+    const Probe source = verb.input.load();
+    ProbeConversion conversion;
+    conversion.shape = shapeOf(verb, source);
+    conversion.resampling = memberOfName<Resampling>(kResamplings, verb.resampling);
+    conversion.samplesPerAxis = verb.samples;
+    const Profile& profile = *findProfile(verb.profile);
+    conversion.fractionBits = profile.textureFractionBits;
+    // The frame of the result, about +Y from that of the source or of the world.
+    const SinCos turn = sinCosOfDegrees(verb.rotation_deg);
+    const glm::dmat3 aboutY(turn.cos, 0, -turn.sin, 0, 1, 0, turn.sin, 0, turn.cos);
+    const glm::dmat3 from = verb.upright ? glm::dmat3(1) : source.rotation;
+    for (int c = 0; c < 3; c++)
+        for (int r = 0; r < 3; r++)
+            conversion.rotation[c][r] =
+                from[0][r] * aboutY[c][0] + (from[1][r] * aboutY[c][1] + from[2][r] * aboutY[c][2]);
+    const Probe result = convertProbe(source, conversion, profile.fragment, verb.threads);
+    file.write(encodeExr(frameOfProbe(result, memberOfName<CubeLayout>(kLayoutNames, verb.toLayout))));
+    file.commit();
+    return ExitCode::done;
+}
+
+}  // namespace
+
+void addProbeConvert(CLI::App& probe, ExitCode& exitCode) {
+    const auto options = std::make_shared<ProbeConvertVerb>();
+    CLI::App* verb =
+        probe.add_subcommand("convert", "Convert a probe to another mapping, size or orientation");
+    options->input.addTo(*verb);
+    verb->add_option("-o,--output", options->output, "EXR file to write")->required();
+    verb->add_option("--to", options->to, "Mapping of the result")
+        ->required()
+        ->check(CLI::IsMember(mappingNames()));
+    verb->add_option("--width", options->width,
+                     "Texels across an image (a cube's face); default: as in the source")
+        ->check(CLI::Range(1, kMaxImageSize));
+    verb->add_option("--height", options->height, "Texels down a lat-long image; default: half the width")
+        ->check(CLI::Range(1, kMaxImageSize));
+    verb->add_option("--to-layout", options->toLayout, "How the faces of a cube are laid out")
+        ->check(CLI::IsMember(kLayoutNames))
+        ->capture_default_str();
+    verb->add_option("--to-ball-distance", options->toBallDistance_radii, "Of a mirror ball, in radii")
+        ->check(CLI::Range(kLeastBallDistance_radii, std::numeric_limits<double>::infinity()))
+        ->capture_default_str();
+    verb->add_option("--resample", options->resampling, "How texels are computed; area keeps energy")
+        ->check(CLI::IsMember(kResamplings))
+        ->capture_default_str();
+    verb->add_option("--samples", options->samples, "Of area: samples per axis and texel")
+        ->check(CLI::Range(1, kMaxSamplesPerAxis))
+        ->capture_default_str();
+    verb->add_option("--rotate-y-deg", options->rotation_deg,
+                     "Turn the frame of the result about +Y, counter-clockwise from above")
+        ->check(CLI::Range(-1e6, 1e6))
+        ->capture_default_str();
+    verb->add_flag("--upright", options->upright,
+                   "The result is in world axes; default: in those of the source");
+    verb->add_option("--profile", options->profile, "Arithmetic profile")
+        ->check(CLI::IsMember(profileNames()))
+        ->capture_default_str();
+    addIsaOption(*verb);
+    addThreadsOption(*verb, options->threads);
+    verb->callback([options, &exitCode] { exitCode = runProbeConvert(*options); });
+}
+
+}  // namespace etalon

@@ -1,0 +1,86 @@
+#include <cmath>
+#include <memory>
+
+#include "app/probe_options.h"
+#include "app/report.h"
+#include "app/scene_options.h"
+#include "app/verbs.h"
+#include "probes/irradiance.h"
+#include "probes/probe_statistics.h"
+
+namespace etalon {
+namespace {
+
+struct ProbeInfoVerb {
+    ProbeInput input;
+    int threads = 0;
+    bool json = false;
+};
+
+// JSON has no infinities and no NaN.
+nlohmann::ordered_json numberOf(double value) {
+    if (std::isnan(value)) return "nan";
+    if (std::isinf(value)) return value > 0 ? "inf" : "-inf";
+    return value;
+}
+nlohmann::ordered_json jsonOf(const glm::dvec3& v) { return {numberOf(v.x), numberOf(v.y), numberOf(v.z)}; }
+std::string textOf(const glm::dvec3& v) { return fmt::format("{:.6g} {:.6g} {:.6g}", v.x, v.y, v.z); }
+
+constexpr const char* kAxisNames[] = {"+x", "-x", "+y", "-y", "+z", "-z"};
+
+ExitCode runProbeInfo(const ProbeInfoVerb& verb) {
+    const Probe probe = verb.input.load();
+    const ProbeStatistics s = statisticsOf(probe, verb.threads);
+    const std::vector<glm::dvec3> axes = {{1, 0, 0},  {-1, 0, 0}, {0, 1, 0},
+                                          {0, -1, 0}, {0, 0, 1},  {0, 0, -1}};
+    const auto irradiance = irradianceAt(probe, axes, FragmentArithmetic::fp64, verb.threads);
+    const std::string mapping = kMappingNames[static_cast<size_t>(probe.shape.mapping)];
+    if (verb.json) {
+        nlohmann::ordered_json json = {{"file", verb.input.file},
+                                       {"mapping", mapping},
+                                       {"width", probe.shape.width},
+                                       {"height", probe.shape.height}};
+        if (probe.shape.mapping == Mapping::mirrorBall)
+            json["ball_distance_radii"] = numberOf(probe.shape.ballDistance_radii);
+        json["has_distance"] = !probe.distance_m.empty();
+        json["has_valid"] = !probe.valid.empty();
+        json["smallest"] = numberOf(s.smallest);
+        json["largest"] = numberOf(s.largest);
+        json["dynamic_range_stops"] = numberOf(s.dynamicRange_stops);
+        json["mean_radiance"] = jsonOf(s.mean);
+        json["solid_angle_sr"] = s.solidAngle_sr;
+        json["negative"] = s.negative;
+        json["infinite"] = s.infinite;
+        json["nan"] = s.notANumber;
+        for (size_t i = 0; i < axes.size(); i++) json["irradiance"][kAxisNames[i]] = jsonOf(irradiance[i]);
+        printOut(jsonText(json));
+        return ExitCode::done;
+    }
+    std::string text =
+        fmt::format("{}: {} {}x{}{}{}\n", verb.input.file, mapping, probe.shape.width, probe.shape.height,
+                    probe.distance_m.empty() ? "" : ", distances", probe.valid.empty() ? "" : ", valid");
+    text += fmt::format(
+        "radiance       {:.6g} to {:.6g}, {:.1f} stops between the smallest above 0 and the largest\n",
+        s.smallest, s.largest, s.dynamicRange_stops);
+    text += fmt::format("mean           {}  over {:.6f} sr\n", textOf(s.mean), s.solidAngle_sr);
+    text += fmt::format("no radiance    {} negative, {} infinite, {} NaN\n", s.negative, s.infinite,
+                        s.notANumber);
+    for (size_t i = 0; i < axes.size(); i++)
+        text += fmt::format("irradiance {}  {}\n", kAxisNames[i], textOf(irradiance[i]));
+    printOut(text);
+    return ExitCode::done;
+}
+
+}  // namespace
+
+void addProbeInfo(CLI::App& probe, ExitCode& exitCode) {
+    const auto options = std::make_shared<ProbeInfoVerb>();
+    CLI::App* verb = probe.add_subcommand("info", "What a probe holds: mapping, range, mean, irradiance");
+    options->input.addTo(*verb);
+    addIsaOption(*verb);
+    addThreadsOption(*verb, options->threads);
+    verb->add_flag("--json", options->json, "Report as JSON");
+    verb->callback([options, &exitCode] { exitCode = runProbeInfo(*options); });
+}
+
+}  // namespace etalon
