@@ -34,7 +34,7 @@ Image<double> randomTexels(int size, uint64_t seed) {
 // What is left of the texels in the differences of a table's entries, in dB; the largest texel is 1.
 double signalToNoise_db(FragmentArithmetic arithmetic, const Image<double>& texels) {
     const LightPasses passes = lightPasses(arithmetic);
-    const Image<double> boxes = passes.boxSums(passes.summedArea(texels, 0), 1, 1, 0);
+    const Image<double> boxes = passes.boxSums(passes.summedArea(texels, 1), 1, 1, 1);
     double square = 0.0;
     for (size_t i = 0; i < boxes.values().size(); i++)
         square += std::pow(boxes.values()[i] - texels.values()[i], 2.0);
