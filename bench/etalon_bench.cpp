@@ -9,17 +9,32 @@
 
 #include "bench/measure.h"
 #include "bench/passes.h"
+#include "bench/rows.h"
 #include "numeric/isa.h"
-#include "probes/light_passes.h"
-#include "probes/median_cut.h"
 #include "raster/blur.h"
 
 namespace etalon::bench {
+
+void add(const std::string& name, const Way& way, std::function<void(benchmark::State&)> body) {
+    const std::string level = way.level ? std::string("-") + isaName(*way.level) : "";
+    const std::string full = name + "/" + way.profile + level + "/threads:" + std::to_string(way.threads);
+    benchmark::RegisterBenchmark(full.c_str(),
+                                 [=](benchmark::State& state) {
+                                     const IsaLevel before = activeIsa();
+                                     if (way.level) selectIsa(*way.level);
+                                     body(state);
+                                     selectIsa(before);
+                                 })
+        ->Unit(benchmark::kMillisecond)
+        ->MeasureProcessCPUTime()
+        ->UseRealTime();
+}
+
 namespace {
 
 // Bytes of a position or normal, an index, and what visibility stores per sample: depth, id and stencil.
 constexpr size_t kVector_bytes = 12, kIndex_bytes = 4, kSample_bytes = 9;
-constexpr size_t kRadiance_bytes = 12, kDistance_bytes = 4;
+constexpr size_t kDistance_bytes = 4;
 
 // Positions and indices read.
 size_t meshBytes(const Workload& w) {
@@ -38,28 +53,6 @@ double coveredPixels(const VisibleScene& visible) {
     const auto ids = visible.target.id.plane(0);
     return static_cast<double>(ids.size()) -
            static_cast<double>(std::count(ids.begin(), ids.end(), kNoTriangle));
-}
-
-// How a pass runs: the profile, the threads, and an instruction set level other than the widest.
-struct Way {
-    std::string profile = "f32";
-    int threads = 1;
-    std::optional<IsaLevel> level = {};
-};
-
-void add(const std::string& name, const Way& way, std::function<void(benchmark::State&)> body) {
-    const std::string level = way.level ? std::string("-") + isaName(*way.level) : "";
-    const std::string full = name + "/" + way.profile + level + "/threads:" + std::to_string(way.threads);
-    benchmark::RegisterBenchmark(full.c_str(),
-                                 [=](benchmark::State& state) {
-                                     const IsaLevel before = activeIsa();
-                                     if (way.level) selectIsa(*way.level);
-                                     body(state);
-                                     selectIsa(before);
-                                 })
-        ->Unit(benchmark::kMillisecond)
-        ->MeasureProcessCPUTime()
-        ->UseRealTime();
 }
 
 // Touches the mesh, and depth, id and stencil of each sample.
@@ -137,55 +130,6 @@ void addBlur(const Way& way) {
     });
 }
 
-// Touches the texels of the lat-long image and of the cube map.
-void addCubeFromLatLong(const Way& way) {
-    add("latlong-to-cube/1024", way, [=](benchmark::State& state) {
-        SurfaceEnvironment environment;
-        environment.latLong = latLongInput();
-        const Profile& found = *findProfile(way.profile);
-        constexpr size_t kTexels = size_t{kCubeFaces} * kLatLongCubeSize * kLatLongCubeSize;
-        const Amount amount{.pixels = static_cast<double>(kTexels),
-                            .bytes_touched = (environment.latLong.pixelCount() + kTexels) * kRadiance_bytes};
-        measure(state, amount, [&] { return environmentCube(environment, found, way.threads); });
-    });
-}
-
-// The double table alone, and table, cuts and energies of 256 lights. Touches the probe; the table is written
-// as well.
-void addLights(const Way& way) {
-    const Amount amount{.pixels = static_cast<double>(kProbeWidth) * kProbeHeight,
-                        .bytes_touched = size_t{kProbeWidth} * kProbeHeight * kRadiance_bytes};
-    add("energy-table/4096", way, [=](benchmark::State& state) {
-        const Probe probe = probeInput();
-        const auto weights = texelWeights(kProbeWidth, kProbeHeight, TexelWeight::exact);
-        measure(state, amount, [&] { return EnergyTable(probe.radiance[0], weights, way.threads).total(); });
-    });
-    add("lights256-of-probe/4096", way, [=](benchmark::State& state) {
-        const Probe probe = probeInput();
-        measure(state, amount,
-                [&] { return medianCutLights(probe, {.log2Count = kLog2Lights}, way.threads); });
-    });
-}
-
-// Irradiance of 256 lights over the directions of a lat-long image; pixels are pairs of direction and light.
-void addLightIrradiance(const Way& way) {
-    add("irradiance-of-lights/256", way, [=](benchmark::State& state) {
-        constexpr int kShownWidth = 256, kShownHeight = 128;
-        Probe probe;
-        probe.shape = {Mapping::latLong, kLatLongWidth, kLatLongHeight};
-        probe.radiance.push_back(latLongInput());
-        const auto lights = medianCutLights(probe, {.log2Count = kLog2Lights}).lights;
-        const LightPasses passes = lightPasses(findProfile(way.profile)->fragment);
-        const Amount amount{
-            .pixels = static_cast<double>(kShownWidth) * kShownHeight * static_cast<double>(lights.size()),
-            .bytes_touched = size_t{kShownWidth} * kShownHeight * 3 * sizeof(double)};
-        measure(state, amount, [&] {
-            return passes.irradianceOfLights(lights, {Mapping::latLong, kShownWidth, kShownHeight},
-                                             way.threads);
-        });
-    });
-}
-
 void addAll() {
     for (const int threads : {1, 2}) {
         const Way way{.threads = threads};
@@ -199,25 +143,20 @@ void addAll() {
         addFill(way);
         addCube(way);
         addBlur(way);
-        addCubeFromLatLong(way);
-        addLights(way);
-        addLightIrradiance(way);
+        addProbeRows(way);
     }
     for (const IsaLevel level : usableIsaLevels()) {
         const Way way{.level = level};
         addDepth("70k", way);
         addShaded("1k-small", 64, way);
         addBlur(way);
-        addCubeFromLatLong(way);
-        addLights(way);
-        addLightIrradiance(way);
+        addProbeRowsOfLevel(way);
     }
     addShaded("1k-small", 64, {});
     for (const char* profile : {"f64", "r300-fp24", "nv40-fp16", "fp16", "bf16"}) {
         addShaded("70k", 1, {.profile = profile});
         addShaded("1k-small", 1, {.profile = profile});
-        addCubeFromLatLong({.profile = profile});
-        addLightIrradiance({.profile = profile});
+        addProbeRowsOfProfile({.profile = profile});
     }
     addShaded("1k-small", 1, {});
     addShaded("1k-small", 1, {.profile = "truth"});

@@ -57,10 +57,10 @@ Image<float> blurInput() { return randomImage(kBlurSize, kBlurSize, 1); }
 
 Image<float> latLongInput() { return randomImage(kLatLongWidth, kLatLongHeight, 3); }
 
-Probe probeInput() {
+Probe probeInput(const ProbeShape& shape) {
     Probe probe;
-    probe.shape = {Mapping::latLong, kProbeWidth, kProbeHeight};
-    probe.radiance.push_back(randomImage(kProbeWidth, kProbeHeight, 3));
+    probe.shape = shape;
+    probe.radiance.assign(static_cast<size_t>(shape.layers()), randomImage(shape.width, shape.height, 3));
     return probe;
 }
 

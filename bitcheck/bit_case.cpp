@@ -9,6 +9,7 @@ std::vector<BitCase> bitCases() {
     addImageCases(cases);
     addLightCases(cases);
     addShadingCases(cases);
+    addIrradianceCases(cases);
     return cases;
 }
 

@@ -28,5 +28,6 @@ void addRasterCases(std::vector<BitCase>& cases);
 void addImageCases(std::vector<BitCase>& cases);
 void addLightCases(std::vector<BitCase>& cases);
 void addShadingCases(std::vector<BitCase>& cases);
+void addIrradianceCases(std::vector<BitCase>& cases);
 
 }  // namespace etalon

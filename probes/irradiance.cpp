@@ -63,9 +63,6 @@ Probe blurredDiffuseMap(const Probe& cube, int radius, double sigma_px, Fragment
 }
 
 double irradianceErrorBound(FragmentArithmetic arithmetic) {
-    // Directions, solid angle, flux, cosine and term: about ten roundings, then the longest way through the
-    // sums, 32 texels and 15 pairs for 2^20 texels. Roundings of one sign are the worst; to nearest they
-    // average.
     switch (arithmetic) {
         case FragmentArithmetic::truth:
         case FragmentArithmetic::fp64:
@@ -73,14 +70,14 @@ double irradianceErrorBound(FragmentArithmetic arithmetic) {
         case FragmentArithmetic::fp32:
         case FragmentArithmetic::fp32Flush:
         case FragmentArithmetic::fp32Nv40:
-            return 4e-6;
+            return 5e-7;
         case FragmentArithmetic::fp16:
         case FragmentArithmetic::fp16Nv40:
-            return 3e-2;
+            return 8e-3;
         case FragmentArithmetic::bf16:
-            return 0.25;
+            return 4e-2;
         case FragmentArithmetic::fp24R300:
-            return 1e-3;
+            return 6e-4;
     }
     return 0;
 }

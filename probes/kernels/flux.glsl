@@ -1,8 +1,6 @@
 // What a texel of a probe adds to sums over directions. Specified in probes/flux.h.
 // needs: probes/kernels/flux_scope.glsl
 
-// 0 below the smallest term: a product of two terms is never subnormal, nor is the difference of two products.
-real flooredTerm(real a) { return select(absOf(a) < smallestTerm(), real(0.0), a); }
 vec3 flooredTerm3(vec3 a) { return vec3(flooredTerm(a.x), flooredTerm(a.y), flooredTerm(a.z)); }
 // Inside the finite numbers; NaN stays.
 real finiteTerm(real a) {

@@ -4,6 +4,6 @@
 // needs: probes/kernels/flux.glsl
 
 vec3 addIrradiance(vec3 sum, vec3 normal, vec3 direction, vec3 flux) {
-    real cosine = dot3(normal, direction);
-    return add3(sum, scale3(flux, select(cosine > smallestTerm(), cosine, real(0.0))));
+    real cosine = flooredTerm(dot3(normal, direction));
+    return add3(sum, scale3(flux, select(cosine > real(0.0), cosine, real(0.0))));
 }

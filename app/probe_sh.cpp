@@ -1,0 +1,121 @@
+#include <cmath>
+#include <memory>
+
+#include "app/report.h"
+#include "app/scene_options.h"
+#include "app/verbs.h"
+#include "ar/probe_file.h"
+#include "probes/harmonics_layout.h"
+#include "probes/harmonics_lobes.h"
+
+namespace etalon {
+namespace {
+
+struct ProbeShVerb {
+    std::string file, of = "radiance", window = "none", layout;
+    int degree = 2, threads = 0;
+    double width = 0;
+    bool json = false;
+};
+
+const std::vector<std::string> kFunctions = {"radiance", "irradiance"},
+                               kWindows = {"none", "hanning", "lanczos", "minimal"},
+                               kLayouts = {"interleaved", "planar"};
+
+struct Windowed {
+    SphericalHarmonics harmonics;
+    std::vector<double> factors;
+    double strength = 0;  // of the minimal window
+};
+Windowed windowOf(const ProbeShVerb& verb, const SphericalHarmonics& f) {
+    Windowed w{f, mirrorLobe(f.degree)};
+    const double width = verb.width > 0 ? verb.width : f.degree + 1.0;
+    if (verb.window == "hanning") w.factors = hanningWindow(f.degree, width);
+    if (verb.window == "lanczos") w.factors = lanczosWindow(f.degree, width);
+    if (verb.window == "minimal") {
+        MinimalWindow minimal = minimalWindow(f);
+        w.factors = std::move(minimal.factors);
+        w.strength = minimal.strength;
+    }
+    w.harmonics = scaleBands(f, w.factors);
+    return w;
+}
+
+CoefficientLayout layoutOf(const ProbeShVerb& verb) {
+    return verb.layout == "planar" ? CoefficientLayout::planar : CoefficientLayout::interleaved;
+}
+
+std::string tableOf(const SphericalHarmonics& f) {
+    std::string text;
+    for (int l = 0; l <= f.degree; l++)
+        for (int m = -l; m <= l; m++)
+            text += fmt::format("{:2} {:3}  {:16.9g} {:16.9g} {:16.9g}\n", l, m, f.at(l, m).x, f.at(l, m).y,
+                                f.at(l, m).z);
+    return text;
+}
+
+ExitCode runProbeSh(const ProbeShVerb& verb) {
+    const Probe probe = loadProbe(verb.file);
+    SphericalHarmonics f = projectHarmonics(probe, verb.degree, verb.threads);
+    for (const glm::dvec3& c : f.coefficients)
+        if (!std::isfinite(c.x) || !std::isfinite(c.y) || !std::isfinite(c.z))
+            throw InputError(fmt::format("{}: NaN or infinite radiance has no harmonics", verb.file));
+    if (verb.of == "irradiance") f = irradianceOfHarmonics(f);
+    const Windowed w = windowOf(verb, f);
+    const double smallest = smallestValue(w.harmonics);
+    if (verb.json) {
+        nlohmann::ordered_json json = {{"file", verb.file},
+                                       {"of", verb.of},
+                                       {"degree", verb.degree},
+                                       {"window", verb.window},
+                                       {"window_factors", w.factors}};
+        if (verb.window == "minimal")
+            json["window_strength"] =
+                std::isinf(w.strength) ? nlohmann::ordered_json("inf") : nlohmann::ordered_json(w.strength);
+        json["smallest_value"] = smallest;
+        json["layout"] = kLayouts[static_cast<size_t>(layoutOf(verb))];
+        json["coefficients"] = layOut(w.harmonics, layoutOf(verb));
+        printOut(jsonText(json));
+    } else if (!verb.layout.empty()) {
+        std::string text;
+        for (const double value : layOut(w.harmonics, layoutOf(verb))) text += fmt::format("{:.9g}\n", value);
+        printOut(text);
+    } else {
+        printOut(fmt::format("# {} of degree {}, window {}, smallest value {:.6g}\n#  l   m  R G B\n",
+                             verb.of, verb.degree, verb.window, smallest) +
+                 tableOf(w.harmonics));
+    }
+    return ExitCode::done;
+}
+
+}  // namespace
+
+void addProbeSh(CLI::App& probe, ExitCode& exitCode) {
+    const auto options = std::make_shared<ProbeShVerb>();
+    CLI::App* verb = probe.add_subcommand(
+        "sh", "Spherical harmonics of a probe: world axes, +Y up, with Condon-Shortley phase.");
+    verb->add_option("FILE", options->file, "Image file of a probe")->required();
+    verb->add_option("--degree", options->degree, "Bands 0 .. degree")
+        ->check(CLI::Range(0, kMaxHarmonicDegree))
+        ->capture_default_str();
+    verb->add_option("--of", options->of, "The function: radiance, or irradiance over normals")
+        ->check(CLI::IsMember(kFunctions))
+        ->capture_default_str();
+    verb->add_option("--window", options->window,
+                     "Against ringing; minimal: only as much as removes what is negative")
+        ->check(CLI::IsMember(kWindows))
+        ->capture_default_str();
+    verb->add_option("--window-width", options->width,
+                     "hanning, lanczos: the band where the window is 0; default degree + 1")
+        ->check(CLI::Range(1e-3, 1e6));
+    verb->add_option("--layout", options->layout,
+                     "Only the numbers, one per line: interleaved (R G B of each coefficient, as ARCore) or "
+                     "planar (all of red first, as ARKit)")
+        ->check(CLI::IsMember(kLayouts));
+    addIsaOption(*verb);
+    addThreadsOption(*verb, options->threads);
+    verb->add_flag("--json", options->json, "Report as JSON");
+    verb->callback([options, &exitCode] { exitCode = runProbeSh(*options); });
+}
+
+}  // namespace etalon

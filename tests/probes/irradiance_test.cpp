@@ -1,0 +1,211 @@
+#include "probes/irradiance.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "probes/harmonics_lobes.h"
+#include "probes/harmonics_rotation.h"
+#include "tests/probes/made_probes.h"
+
+namespace etalon {
+
+namespace {
+
+constexpr double kPi = 0x1.921fb54442d18p+1;
+constexpr FragmentArithmetic kDouble = FragmentArithmetic::fp64;
+
+// The midpoint rule of the furnace below, largest relative error over normals.
+constexpr double kFurnaceQuadrature = 2e-3;
+
+std::vector<glm::dvec3> someNormals() {
+    std::vector<glm::dvec3> normals = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+    RandomNumbers random(1);
+    for (int i = 0; i < 31; i++) normals.push_back(randomUnitVector(random));
+    return normals;
+}
+
+// Relative to each value of `exact`.
+double largestRelative(const std::vector<glm::dvec3>& values, const std::vector<glm::dvec3>& exact) {
+    double largest = 0;
+    for (size_t i = 0; i < values.size(); i++)
+        for (int c = 0; c < 3; c++)
+            largest = std::max(largest, std::abs(values[i][c] - exact[i][c]) / exact[i][c]);
+    return largest;
+}
+
+}  // namespace
+
+TEST_CASE("IrradianceIsTheSumOverTexels") {
+    RandomNumbers random(2);
+    for (const ProbeShape& shape : kSmallShapes) {
+        Probe probe = randomProbe(shape, 3);
+        probe.rotation = randomRotation(random);
+        const TexelGrid grid(shape);
+        const std::vector<glm::dvec3> normals = someNormals();
+        const std::vector<glm::dvec3> values = irradianceAt(probe, normals, kDouble);
+        for (size_t i = 0; i < normals.size(); i++) {
+            long double sum = 0;
+            for (int layer = 0; layer < shape.layers(); layer++)
+                for (int y = 0; y < shape.height; y++)
+                    for (int x = 0; x < shape.width; x++) {
+                        const glm::dvec3 d = probe.rotation * grid.direction(layer, x, y);
+                        const double cosine = d.x * normals[i].x + d.y * normals[i].y + d.z * normals[i].z;
+                        sum += static_cast<long double>(std::max(0.0, cosine)) *
+                               grid.solidAngle_sr(layer, x, y) *
+                               probe.radiance[static_cast<size_t>(layer)].at(x, y, 1);
+                    }
+            CHECK(std::abs(static_cast<double>(sum) - values[i].y) < 1e-13);
+        }
+    }
+}
+
+TEST_CASE("WhiteFurnaceIsPi") {
+    const std::vector<glm::dvec3> normals = someNormals();
+    for (const ProbeShape& shape :
+         {ProbeShape{Mapping::latLong, 64, 32}, {Mapping::latLong, 37, 19}, {Mapping::cube, 16, 16}}) {
+        const Probe white = constantProbe(shape, 1);
+        const std::vector<glm::dvec3> exact = irradianceAt(white, normals, FragmentArithmetic::truth);
+        for (const glm::dvec3& e : exact) CHECK(std::abs(e.x / kPi - 1) < kFurnaceQuadrature);
+        for (const FragmentArithmetic a : kAllArithmetics) {
+            CAPTURE(static_cast<int>(a));
+            const double error = largestRelative(irradianceAt(white, normals, a), exact);
+            CAPTURE(error);
+            CHECK(error <= irradianceErrorBound(a));
+            // From harmonics there is no midpoint rule in the cosine.
+            const SphericalHarmonics f =
+                irradianceOfHarmonics(projectHarmonics(white, 2, FragmentArithmetic::fp64));
+            for (const glm::dvec3& e : evaluateHarmonics(f, normals, a))
+                CHECK(std::abs(e.x / kPi - 1) <= kFurnaceQuadrature + irradianceErrorBound(a));
+        }
+    }
+}
+
+TEST_CASE("IrradianceInEveryArithmeticKeepsItsBound") {
+    const Probe probe = randomProbe({Mapping::latLong, 48, 24}, 4);
+    const std::vector<glm::dvec3> normals = someNormals();
+    const std::vector<glm::dvec3> exact = irradianceAt(probe, normals, FragmentArithmetic::truth);
+    for (const FragmentArithmetic a : kAllArithmetics) {
+        CAPTURE(static_cast<int>(a));
+        const double error = largestRelative(irradianceAt(probe, normals, a), exact);
+        CAPTURE(error);
+        CHECK(error <= irradianceErrorBound(a));
+    }
+}
+
+TEST_CASE("IrradianceConvergesWithTheSquareOfTheTexelSize") {
+    // Radiance of degree 3: its irradiance is known.
+    SphericalHarmonics f(3);
+    RandomNumbers random(5);
+    for (glm::dvec3& c : f.coefficients) c = glm::dvec3(random.uniform(-0.2, 0.2));
+    f.at(0, 0) = glm::dvec3(3);
+    const std::vector<glm::dvec3> normals = someNormals();
+    const std::vector<glm::dvec3> exact = evaluateHarmonics(irradianceOfHarmonics(f), normals, kDouble);
+    double before = 0;
+    for (const int size : {8, 16, 32}) {
+        const ProbeShape shape{Mapping::cube, size, size};
+        const TexelGrid grid(shape);
+        const Probe probe = madeProbe(shape, [&](int layer, int x, int y, int c) {
+            return evaluate(f, grid.direction(layer, x, y))[c];
+        });
+        const double error = largestRelative(irradianceAt(probe, normals, kDouble), exact);
+        if (before > 0) CHECK(error < before / 2.5);
+        before = error;
+    }
+    CHECK(before < 1e-3);
+}
+
+TEST_CASE("HarmonicsOfDegreeTwoMissALittleOfASun") {
+    // Of a single direction 3/32 of the largest irradiance at right angles to it, 1/16 towards it.
+    const ProbeShape shape{Mapping::cube, 32, 32};
+    const Probe sun = madeProbe(
+        shape, [](int layer, int x, int y, int) { return layer == 2 && x == 20 && y == 9 ? 1e4 : 0; });
+    const std::vector<glm::dvec3> normals = texelDirections({Mapping::cube, 6, 6});
+    const std::vector<glm::dvec3> exact = irradianceAt(sun, normals, kDouble);
+    const SphericalHarmonics f = irradianceOfHarmonics(projectHarmonics(sun, 2));
+    double largest = 0, worst = 0;
+    for (size_t i = 0; i < normals.size(); i++) {
+        largest = std::max(largest, exact[i].x);
+        worst = std::max(worst, std::abs(evaluate(f, normals[i]).x - exact[i].x));
+    }
+    CHECK(worst < 3.01 / 32 * largest);
+    CHECK(worst > 1.0 / 16 * largest);
+}
+
+TEST_CASE("IrradianceProbesShowTheirDirections") {
+    const Probe probe = randomProbe({Mapping::latLong, 16, 8}, 6);
+    const ProbeShape shape{Mapping::cube, 3, 3};
+    const Probe map = irradianceProbe(probe, shape, FragmentArithmetic::fp32);
+    const std::vector<glm::dvec3> values =
+        irradianceAt(probe, texelDirections(shape), FragmentArithmetic::fp32);
+    CHECK(map.shape == shape);
+    CHECK(map.radiance[1].at(2, 1, 0) == static_cast<float>(values[9 + 5].x));
+    const Probe smooth = irradianceProbe(projectHarmonics(probe, 4), shape, probe, FragmentArithmetic::fp32);
+    for (size_t i = 0; i < 9; i++)
+        CHECK(std::abs(smooth.radiance[0].plane(0)[i] / map.radiance[0].plane(0)[i] - 1) < 0.03);
+}
+
+TEST_CASE("ExtremeProbesHaveFiniteIrradiance") {
+    const std::vector<glm::dvec3> normals = someNormals();
+    for (const FragmentArithmetic a : kAllArithmetics) {
+        const bool isHalf = a == FragmentArithmetic::fp16 || a == FragmentArithmetic::fp16Nv40;
+        CAPTURE(static_cast<int>(a));
+        const auto check = [&](const Probe& probe) {
+            const std::vector<glm::dvec3> values = irradianceAt(probe, normals, a);
+            const std::vector<glm::dvec3> exact = irradianceAt(probe, normals, kDouble);
+            double largest = 0, worst = 0;
+            for (size_t i = 0; i < values.size(); i++) {
+                REQUIRE(std::isfinite(values[i].x));
+                largest = std::max(largest, exact[i].x);
+                worst = std::max(worst, std::abs(values[i].x - exact[i].x));
+            }
+            CAPTURE(worst / largest);
+            CHECK(worst <= irradianceErrorBound(a) * largest);
+        };
+        for (const ProbeShape& shape : {ProbeShape{Mapping::latLong, 16, 8}, {Mapping::cube, 5, 5}}) {
+            // Half floats limit the sun to 65504 (probes/flux.h).
+            Probe sun = constantProbe(shape, 1e-3);
+            for (int c = 0; c < 3; c++) sun.radiance[0].at(4, 3, c) = isHalf ? 65504.0f : 1e6f;
+            check(sun);
+            Probe atPole = constantProbe(shape, 0);
+            for (int c = 0; c < 3; c++) atPole.radiance[0].at(0, 0, c) = 1e4f;
+            check(atPole);
+            check(constantProbe(shape, 65504));
+        }
+        for (const ProbeShape& shape : {ProbeShape{Mapping::latLong, 1, 1}, {Mapping::cube, 1, 1}})
+            for (const glm::dvec3& e : irradianceAt(constantProbe(shape, 1), normals, a))
+                REQUIRE(std::isfinite(e.x));
+    }
+    // Six texels of a cube are a crude sphere: the mean of the three that a normal sees.
+    const std::vector<glm::dvec3> axis = {{0, 0, 1}};
+    CHECK(std::abs(irradianceAt(constantProbe({Mapping::cube, 1, 1}, 1), axis, kDouble)[0].x - 4 * kPi / 6) <
+          1e-14);
+}
+
+TEST_CASE("BlurredMapOfAConstantIsTheConstant") {
+    const Probe map =
+        blurredDiffuseMap(constantProbe({Mapping::cube, 8, 8}, 3), 5, 2.5, FragmentArithmetic::fp32);
+    for (const Image<float>& face : map.radiance)
+        for (const float v : face.values()) CHECK(std::abs(v / 3 - 1) < 1e-6);
+    CHECK_THROWS_AS(
+        blurredDiffuseMap(constantProbe({Mapping::latLong, 8, 4}, 3), 5, 2.5, FragmentArithmetic::fp32),
+        PreconditionError);
+}
+
+TEST_CASE("BlurredMapIsNoIrradiance") {
+    // A bright upper hemisphere [Karlsson2005]: a side face that is blurred over its own half sees neither
+    // the top nor the ground.
+    const ProbeShape shape{Mapping::cube, 16, 16};
+    const TexelGrid grid(shape);
+    const Probe sky = madeProbe(
+        shape, [&](int layer, int x, int y, int) { return grid.direction(layer, x, y).y > 0 ? 1.0 : 0.0; });
+    const Probe map = blurredDiffuseMap(sky, 16, 8, FragmentArithmetic::fp64);
+    const std::vector<glm::dvec3> exact = irradianceAt(sky, texelDirections(shape), kDouble);
+    double worst = 0;
+    for (size_t i = 0; i < exact.size(); i++)
+        worst = std::max(worst, std::abs(map.radiance[i / 256].plane(0)[i % 256] - exact[i].x / kPi));
+    CHECK(worst > 0.1);
+    CHECK(worst < 0.35);
+}
+
+}  // namespace etalon

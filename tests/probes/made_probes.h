@@ -1,0 +1,97 @@
+// Probes that tests make.
+#pragma once
+
+#include <array>
+#include <cmath>
+
+#include "numeric/truth.h"
+#include "probes/probe.h"
+#include "probes/texel_grid.h"
+#include "raster/profile.h"
+#include "tests/support/random_numbers.h"
+
+namespace etalon {
+
+inline constexpr FragmentArithmetic kAllArithmetics[] = {
+    FragmentArithmetic::truth,     FragmentArithmetic::fp64,     FragmentArithmetic::fp32,
+    FragmentArithmetic::fp32Flush, FragmentArithmetic::fp32Nv40, FragmentArithmetic::fp16,
+    FragmentArithmetic::fp16Nv40,  FragmentArithmetic::bf16,     FragmentArithmetic::fp24R300};
+
+// Every texel shows value(layer, x, y, channel).
+template <class F>
+Probe madeProbe(const ProbeShape& shape, F&& value) {
+    Probe probe;
+    probe.shape = shape;
+    for (int layer = 0; layer < shape.layers(); layer++) {
+        Image<float>& image = probe.radiance.emplace_back(shape.width, shape.height, 3);
+        for (int c = 0; c < 3; c++)
+            for (int y = 0; y < shape.height; y++)
+                for (int x = 0; x < shape.width; x++)
+                    image.at(x, y, c) = static_cast<float>(value(layer, x, y, c));
+    }
+    return probe;
+}
+
+inline Probe constantProbe(const ProbeShape& shape, double radiance) {
+    return madeProbe(shape, [&](int, int, int, int) { return radiance; });
+}
+
+inline Probe randomProbe(const ProbeShape& shape, uint64_t seed) {
+    RandomNumbers random(seed);
+    return madeProbe(shape, [&](int, int, int, int) { return random.uniform(0, 1); });
+}
+
+inline glm::dvec3 randomUnitVector(RandomNumbers& random) {
+    for (;;) {
+        const glm::dvec3 d(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+        const double square = d.x * d.x + d.y * d.y + d.z * d.z;
+        if (square > 1e-2 && square < 1) return d / std::sqrt(square);
+    }
+}
+
+// A rotation by an angle about an axis.
+inline glm::dmat3 rotationAbout(const glm::dvec3& a, double angle_rad) {
+    const double c = std::cos(angle_rad), s = std::sin(angle_rad), k = 1 - c;
+    return {{c + k * a.x * a.x, k * a.x * a.y + s * a.z, k * a.x * a.z - s * a.y},
+            {k * a.x * a.y - s * a.z, c + k * a.y * a.y, k * a.y * a.z + s * a.x},
+            {k * a.x * a.z + s * a.y, k * a.y * a.z - s * a.x, c + k * a.z * a.z}};
+}
+inline glm::dmat3 randomRotation(RandomNumbers& random) {
+    const glm::dvec3 axis = randomUnitVector(random);
+    return rotationAbout(axis, random.uniform(-3, 3));
+}
+
+// Directions and weights that integrate harmonics exactly: `points` heights of Gauss and Legendre (degrees up
+// to 2 points - 1) times `columns` longitudes (orders up to columns - 1).
+struct WeightedDirection {
+    glm::dvec3 direction;
+    double weight;
+};
+inline std::vector<WeightedDirection> exactQuadrature(int points, int columns) {
+    constexpr double kPi = 0x1.921fb54442d18p+1;
+    std::vector<WeightedDirection> list;
+    for (int i = 0; i < points; i++) {
+        long double z = std::cos(kPi * (i + 0.75) / (points + 0.5)), slope = 0;
+        for (int step = 0; step < 10; step++) {
+            long double before = 1, value = z;
+            for (int n = 2; n <= points; n++) {
+                const long double next = ((2 * n - 1) * z * value - (n - 1) * before) / n;
+                before = value, value = next;
+            }
+            slope = points * (z * value - before) / (z * z - 1);
+            z -= value / slope;
+        }
+        const auto sine = static_cast<double>(std::sqrt(1 - z * z));
+        for (int k = 0; k < columns; k++) {
+            const double phi = 2 * kPi * k / columns;
+            list.push_back({{sine * std::cos(phi), sine * std::sin(phi), static_cast<double>(z)},
+                            static_cast<double>(2 / ((1 - z * z) * slope * slope)) * 2 * kPi / columns});
+        }
+    }
+    return list;
+}
+
+inline constexpr ProbeShape kSmallShapes[] = {
+    {Mapping::latLong, 37, 19}, {Mapping::latLong, 16, 8}, {Mapping::cube, 9, 9}};
+
+}  // namespace etalon
