@@ -61,9 +61,9 @@ struct LightsOfProbe {
     size_t uncountedValues = 0;
 };
 
-// The lights of a lat-long probe, 2^K of them where there are texels enough: a region of one texel stays
-// whole, so that an image has no more lights than texels. Left and upper parts come before right and lower
-// ones. PreconditionError for other mappings and log2Count < 0.
+// The lights of a lat-long probe: 2^K, or fewer, because a region of one texel stays whole. So an image has
+// no more lights than texels, and a probe with a sun of one texel soon has fewer than 2^K. Left and upper
+// parts come before right and lower ones. PreconditionError for other mappings and log2Count < 0.
 //
 // Cut: between two columns, or two rows, so that the energies of the parts (from an EnergyTable) differ
 // least; of several such places the first one. A region whose energy is not known from 0

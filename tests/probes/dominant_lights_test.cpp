@@ -90,6 +90,26 @@ TEST_CASE("CoarseImagesJoinWhatIsClose") {
     CHECK(dominantLights(probe, {.width = 10000, .threshold = 0.25}).size() == 4);
 }
 
+// The reflection at the ball of [Karlsson2005, sec. 3.1], with x to the right and y upwards.
+TEST_CASE("LightsInAMirrorBallLieWhereItReflects") {
+    constexpr int kSize = 32;
+    for (auto [x, y] : {std::pair{16, 16}, {20, 9}, {4, 12}, {15, 29}}) {
+        Probe ball;
+        ball.shape = {Mapping::mirrorBall, kSize, kSize};
+        ball.radiance.assign(1, Image<float>(kSize, kSize, 3));
+        for (int c = 0; c < 3; c++) ball.radiance[0].at(x, y, c) = 10.0f;
+        const auto lights = dominantLights(ball, {.width = kSize});
+        REQUIRE(lights.size() == 1);
+        const double i = (x + 0.5) / kSize, j = (y + 0.5) / kSize;
+        const double nz = std::sqrt(-4 * i * i + 4 * i - 1 - 4 * j * j + 4 * j);
+        const glm::dvec3 r{2 * nz * (2 * i - 1), -2 * nz * (2 * j - 1),
+                           -8 * i * i + 8 * i - 8 * j * j + 8 * j - 3};
+        CHECK(dot(lights[0].light.direction, r) >= 1.0 - 1e-12);
+        // Every texel of a ball far away shows the same solid angle.
+        CHECK(lights[0].light.solidAngle_sr == doctest::Approx(4.0 * 4.0 / (kSize * kSize)).epsilon(1e-9));
+    }
+}
+
 TEST_CASE("DominantLightsOfDegenerateProbes") {
     Probe probe = darkProbe(16, 8);
     probe.radiance[0].fill(0.0f);

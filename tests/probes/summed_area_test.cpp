@@ -4,8 +4,10 @@
 
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 #include "numeric/truth.h"
+#include "probes/energy_lanes.h"
 #include "probes/light_passes.h"
 #include "probes/median_cut.h"
 #include "probes/probe_passes.h"
@@ -32,7 +34,7 @@ Image<double> randomTexels(int size, uint64_t seed) {
 // What is left of the texels in the differences of a table's entries, in dB; the largest texel is 1.
 double signalToNoise_db(FragmentArithmetic arithmetic, const Image<double>& texels) {
     const LightPasses passes = lightPasses(arithmetic);
-    const Image<double> boxes = passes.boxSums(passes.summedArea(texels, 0), 1, 1, 0);
+    const Image<double> boxes = passes.boxSums(passes.summedArea(texels, 1), 1, 1, 1);
     double square = 0.0;
     for (size_t i = 0; i < boxes.values().size(); i++)
         square += std::pow(boxes.values()[i] - texels.values()[i], 2.0);
@@ -82,6 +84,23 @@ TEST_CASE("EnergyTableDependsOnNeitherThreadsNorLanes") {
             REQUIRE(one.sum({0, 0, x + 1, y + 1}) == expected);
             REQUIRE(three.sum({0, 0, x + 1, y + 1}) == expected);
         }
+    }
+}
+
+TEST_CASE_TEMPLATE("EnergySumsInOtherLanesGiveTheSameBits", N, std::integral_constant<int, 2>,
+                   std::integral_constant<int, 4>, std::integral_constant<int, 8>) {
+    Image<float> image = randomRadiance(61, 45, 7);
+    image.at(5, 5, 0) = -1.0f, image.at(60, 44, 2) = std::numeric_limits<float>::quiet_NaN();
+    const std::vector<double> weights = texelWeights(61, 45, TexelWeight::exact);
+    std::vector<double> scalar(61 * 45), lanes(61 * 45);
+    bandOfTable<1>(image, 0, 45, weights.data(), scalar.data());
+    bandOfTable<N::value>(image, 0, 45, weights.data(), lanes.data());
+    CHECK(lanes == scalar);
+    for (const TexelRegion& r : {TexelRegion{0, 0, 61, 45}, {3, 2, 4, 3}, {1, 5, 12, 6}, {7, 0, 31, 44}}) {
+        const RegionSums a = regionSums<1>(image, r, weights.data()),
+                         b = regionSums<N::value>(image, r, weights.data());
+        CHECK(a.energy == b.energy);
+        CHECK(a.uncountedValues == b.uncountedValues);
     }
 }
 

@@ -1,0 +1,162 @@
+#include <algorithm>
+#include <bit>
+#include <memory>
+
+#include "app/report.h"
+#include "app/scene_options.h"
+#include "app/verbs.h"
+#include "ar/probe_file.h"
+#include "probes/dominant_lights.h"
+#include "probes/median_cut.h"
+
+namespace etalon {
+namespace {
+
+struct ProbeLightsVerb {
+    std::string file, method = "median-cut", cut = "arc", position = "centroid", weights = "exact";
+    uint64_t count = 64;
+    int log2Count = 6, threads = 0, maxLights = 8, width = 32;
+    double threshold = 0.5;
+    bool countIsGiven = false, upperHalf = false, json = false;
+};
+
+// The member of an enumeration whose names are in its order.
+template <class Enum>
+Enum fromName(const std::vector<std::string>& names, const std::string& name) {
+    return static_cast<Enum>(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
+const std::vector<std::string> kMethods = {"median-cut", "dominant"}, kCuts = {"angle", "arc"},
+                               kPositions = {"centre", "centroid", "median", "centroid-twice"},
+                               kWeights = {"exact", "midpoint", "edge", "uniform"};
+
+nlohmann::ordered_json jsonOf(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
+
+nlohmann::ordered_json jsonOf(const ProbeLight& light) {
+    nlohmann::ordered_json json = {
+        {"direction", jsonOf(light.direction)},
+        {"energy", jsonOf(light.energy)},
+        {"solid_angle_sr", light.solidAngle_sr},
+        {"region", {light.region.x0, light.region.y0, light.region.x1, light.region.y1}}};
+    if (light.position_m) json["position_m"] = jsonOf(*light.position_m);
+    return json;
+}
+
+std::string textOf(const ProbeLight& light) {
+    const std::string position = light.position_m
+                                     ? fmt::format("  at {:.6g} {:.6g} {:.6g}", light.position_m->x,
+                                                   light.position_m->y, light.position_m->z)
+                                     : "";
+    return fmt::format("{:9.6f} {:9.6f} {:9.6f}  {:12.6g} {:12.6g} {:12.6g}  {:10.4g}  {},{} {},{}{}",
+                       light.direction.x, light.direction.y, light.direction.z, light.energy.x,
+                       light.energy.y, light.energy.z, light.solidAngle_sr, light.region.x0, light.region.y0,
+                       light.region.x1, light.region.y1, position);
+}
+
+void warnUncounted(const std::string& file, size_t count) {
+    if (count > 0)
+        fmt::print(stderr, "etalon: warning: {}: {} negative, infinite or NaN values count as 0\n", file,
+                   count);
+}
+
+ExitCode runProbeLights(const ProbeLightsVerb& verb) {
+    if (verb.countIsGiven && !std::has_single_bit(verb.count))
+        throw InputError(fmt::format("--count {}: not a power of two", verb.count));
+    const bool isMedianCut = verb.method == "median-cut";
+    const Probe probe = loadProbe(verb.file);
+    if (isMedianCut && probe.shape.mapping != Mapping::latLong)
+        throw InputError(fmt::format("{}: a {} probe; median cut needs a lat-long one", verb.file,
+                                     kMappingNames[static_cast<size_t>(probe.shape.mapping)]));
+    if (!isMedianCut && probe.shape.mapping == Mapping::cube)
+        throw InputError(fmt::format("{}: a cube map; dominant lights are searched in one image", verb.file));
+
+    std::vector<ProbeLight> lights;
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    std::string text = "# direction (towards the light), energy R G B (W/m^2), solid angle (sr), texels\n";
+    if (isMedianCut) {
+        const MedianCut cut = {.log2Count = verb.countIsGiven ? std::countr_zero(verb.count) : verb.log2Count,
+                               .side = fromName<LongerSide>(kCuts, verb.cut),
+                               .place = fromName<LightPlace>(kPositions, verb.position),
+                               .weight = fromName<TexelWeight>(kWeights, verb.weights)};
+        LightsOfProbe found = medianCutLights(probe, cut, verb.threads);
+        warnUncounted(verb.file, found.uncountedValues);
+        lights = std::move(found.lights);
+        for (const ProbeLight& light : lights) {
+            list.push_back(jsonOf(light));
+            text += textOf(light) + "\n";
+        }
+    } else {
+        for (const DominantLight& found : dominantLights(probe, {.width = verb.width,
+                                                                .threshold = verb.threshold,
+                                                                .upperHalf = verb.upperHalf,
+                                                                .maxLights = verb.maxLights})) {
+            lights.push_back(found.light);
+            list.push_back(jsonOf(found.light));
+            list.back()["peak_brightness"] = found.peakBrightness;
+            list.back()["angular_radius_rad"] = found.angularRadius_rad;
+            text += fmt::format("{}  radius {:.4g} rad\n", textOf(found.light), found.angularRadius_rad);
+        }
+    }
+    const glm::dvec3 total = totalEnergy(lights);
+    if (verb.json) {
+        printOut(jsonText({{"file", verb.file},
+                           {"method", verb.method},
+                           {"width", probe.shape.width},
+                           {"height", probe.shape.height},
+                           {"total_energy", jsonOf(total)},
+                           {"lights", list}}));
+    } else {
+        printOut(text + fmt::format("# {} lights, energy {:.6g} {:.6g} {:.6g} W/m^2\n", lights.size(),
+                                    total.x, total.y, total.z));
+    }
+    return ExitCode::done;
+}
+
+}  // namespace
+
+void addProbeLights(CLI::App& probe, ExitCode& exitCode) {
+    const auto options = std::make_shared<ProbeLightsVerb>();
+    CLI::App* verb =
+        probe.add_subcommand("lights", "Lights that stand for a probe, by median cut or by brightness.");
+    verb->add_option("FILE", options->file, "Image file of a probe")->required();
+    verb->add_option("--method", options->method,
+                     "median-cut: lights of about equal energy that add up to the probe; dominant: what is "
+                     "brighter than a threshold in a coarse image")
+        ->check(CLI::IsMember(kMethods))
+        ->capture_default_str();
+    auto* log2 = verb->add_option("--log2", options->log2Count, "Median cut: 2^K lights")
+                     ->check(CLI::Range(0, kMaxLog2Lights))
+                     ->capture_default_str();
+    verb->add_option("--count", options->count, "Median cut: number of lights, a power of two")
+        ->check(CLI::Range(uint64_t{1}, uint64_t{1} << kMaxLog2Lights))
+        ->excludes(log2)
+        ->capture_default_str();
+    verb->add_option("--cut", options->cut, "Longer side by angles, or by the length of the parallel")
+        ->check(CLI::IsMember(kCuts))
+        ->capture_default_str();
+    verb->add_option("--position", options->position, "Where in its region a light lies")
+        ->check(CLI::IsMember(kPositions))
+        ->capture_default_str();
+    verb->add_option("--weights", options->weights, "Weights of the rows (probes/median_cut.h)")
+        ->check(CLI::IsMember(kWeights))
+        ->capture_default_str();
+    verb->add_option("--threshold", options->threshold, "Dominant: fraction of the brightest texel")
+        ->check(CLI::Range(1e-6, 1.0))
+        ->capture_default_str();
+    verb->add_option("--width", options->width, "Dominant: texels along the coarse image")
+        ->check(CLI::Range(1, kMaxImageSize))
+        ->capture_default_str();
+    verb->add_option("--max-lights", options->maxLights, "Dominant: the most lights")
+        ->check(CLI::Range(1, 1 << 20))
+        ->capture_default_str();
+    verb->add_flag("--upper-half", options->upperHalf, "Dominant: only lights above the horizon");
+    addIsaOption(*verb);
+    addThreadsOption(*verb, options->threads);
+    verb->add_flag("--json", options->json, "Report as JSON");
+    verb->callback([options, verb, &exitCode] {
+        options->countIsGiven = verb->count("--count") > 0;
+        exitCode = runProbeLights(*options);
+    });
+}
+
+}  // namespace etalon
