@@ -9,17 +9,32 @@
 
 #include "bench/measure.h"
 #include "bench/passes.h"
+#include "bench/rows.h"
 #include "numeric/isa.h"
-#include "probes/irradiance.h"
-#include "probes/latlong.h"
 #include "raster/blur.h"
 
 namespace etalon::bench {
+
+void add(const std::string& name, const Way& way, std::function<void(benchmark::State&)> body) {
+    const std::string level = way.level ? std::string("-") + isaName(*way.level) : "";
+    const std::string full = name + "/" + way.profile + level + "/threads:" + std::to_string(way.threads);
+    benchmark::RegisterBenchmark(full.c_str(),
+                                 [=](benchmark::State& state) {
+                                     const IsaLevel before = activeIsa();
+                                     if (way.level) selectIsa(*way.level);
+                                     body(state);
+                                     selectIsa(before);
+                                 })
+        ->Unit(benchmark::kMillisecond)
+        ->MeasureProcessCPUTime()
+        ->UseRealTime();
+}
+
 namespace {
 
 // Bytes of a position or normal, an index, and what visibility stores per sample: depth, id and stencil.
 constexpr size_t kVector_bytes = 12, kIndex_bytes = 4, kSample_bytes = 9;
-constexpr size_t kRadiance_bytes = 12, kDistance_bytes = 4;
+constexpr size_t kDistance_bytes = 4;
 
 // Positions and indices read.
 size_t meshBytes(const Workload& w) {
@@ -38,28 +53,6 @@ double coveredPixels(const VisibleScene& visible) {
     const auto ids = visible.target.id.plane(0);
     return static_cast<double>(ids.size()) -
            static_cast<double>(std::count(ids.begin(), ids.end(), kNoTriangle));
-}
-
-// How a pass runs: the profile, the threads, and an instruction set level other than the widest.
-struct Way {
-    std::string profile = "f32";
-    int threads = 1;
-    std::optional<IsaLevel> level = {};
-};
-
-void add(const std::string& name, const Way& way, std::function<void(benchmark::State&)> body) {
-    const std::string level = way.level ? std::string("-") + isaName(*way.level) : "";
-    const std::string full = name + "/" + way.profile + level + "/threads:" + std::to_string(way.threads);
-    benchmark::RegisterBenchmark(full.c_str(),
-                                 [=](benchmark::State& state) {
-                                     const IsaLevel before = activeIsa();
-                                     if (way.level) selectIsa(*way.level);
-                                     body(state);
-                                     selectIsa(before);
-                                 })
-        ->Unit(benchmark::kMillisecond)
-        ->MeasureProcessCPUTime()
-        ->UseRealTime();
 }
 
 // Touches the mesh, and depth, id and stencil of each sample.
@@ -137,59 +130,6 @@ void addBlur(const Way& way) {
     });
 }
 
-Probe latLongProbe() {
-    Probe probe;
-    probe.shape = {Mapping::latLong, kLatLongWidth, kLatLongHeight};
-    probe.radiance.push_back(latLongInput());
-    return probe;
-}
-
-// Pixels are texels of the probe; five bands.
-void addHarmonics(const Way& way) {
-    const auto addProjection = [&](const std::string& name, bool isCube) {
-        add(name, way, [=](benchmark::State& state) {
-            Probe probe = latLongProbe();
-            if (isCube) {
-                const CubeMap<float> cube = cubeFromLatLong(probe.radiance[0], kLatLongCubeSize);
-                probe.shape = {Mapping::cube, kLatLongCubeSize, kLatLongCubeSize};
-                probe.radiance.assign(cube.faces.begin(), cube.faces.end());
-            }
-            const size_t texels = probe.radiance.size() * probe.radiance[0].pixelCount();
-            const Amount amount{.pixels = static_cast<double>(texels),
-                                .bytes_touched = texels * kRadiance_bytes};
-            measure(state, amount, [&] { return projectHarmonics(probe, 4, way.threads); });
-        });
-    };
-    addProjection("sh5-of-latlong/1024", false);
-    addProjection("sh5-of-cube/256", true);
-}
-
-// Pixels are pairs of texels.
-void addIrradiance(const Way& way) {
-    add("irradiance/1024-to-128", way, [=](benchmark::State& state) {
-        const Probe probe = latLongProbe();
-        const ProbeShape shape{Mapping::latLong, 16, 8};
-        const size_t texels = probe.radiance[0].pixelCount();
-        const Amount amount{.pixels = static_cast<double>(texels) * shape.width * shape.height,
-                            .bytes_touched = texels * kRadiance_bytes};
-        const Profile& found = *findProfile(way.profile);
-        measure(state, amount, [&] { return irradianceProbe(probe, shape, found.fragment, way.threads); });
-    });
-}
-
-// Touches the texels of the lat-long image and of the cube map.
-void addCubeFromLatLong(const Way& way) {
-    add("latlong-to-cube/1024", way, [=](benchmark::State& state) {
-        SurfaceEnvironment environment;
-        environment.latLong = latLongInput();
-        const Profile& found = *findProfile(way.profile);
-        constexpr size_t kTexels = size_t{kCubeFaces} * kLatLongCubeSize * kLatLongCubeSize;
-        const Amount amount{.pixels = static_cast<double>(kTexels),
-                            .bytes_touched = (environment.latLong.pixelCount() + kTexels) * kRadiance_bytes};
-        measure(state, amount, [&] { return environmentCube(environment, found, way.threads); });
-    });
-}
-
 void addAll() {
     for (const int threads : {1, 2}) {
         const Way way{.threads = threads};
@@ -203,22 +143,20 @@ void addAll() {
         addFill(way);
         addCube(way);
         addBlur(way);
-        addCubeFromLatLong(way);
-        addHarmonics(way);
-        addIrradiance(way);
+        addProbeRows(way);
     }
     for (const IsaLevel level : usableIsaLevels()) {
         const Way way{.level = level};
         addDepth("70k", way);
         addShaded("1k-small", 64, way);
         addBlur(way);
-        addCubeFromLatLong(way);
+        addProbeRowsOfLevel(way);
     }
     addShaded("1k-small", 64, {});
     for (const char* profile : {"f64", "r300-fp24", "nv40-fp16", "fp16", "bf16"}) {
         addShaded("70k", 1, {.profile = profile});
         addShaded("1k-small", 1, {.profile = profile});
-        addCubeFromLatLong({.profile = profile});
+        addProbeRowsOfProfile({.profile = profile});
     }
     addShaded("1k-small", 1, {});
     addShaded("1k-small", 1, {.profile = "truth"});

@@ -57,4 +57,11 @@ Image<float> blurInput() { return randomImage(kBlurSize, kBlurSize, 1); }
 
 Image<float> latLongInput() { return randomImage(kLatLongWidth, kLatLongHeight, 3); }
 
+Probe probeInput(const ProbeShape& shape) {
+    Probe probe;
+    probe.shape = shape;
+    probe.radiance.assign(static_cast<size_t>(shape.layers()), randomImage(shape.width, shape.height, 3));
+    return probe;
+}
+
 }  // namespace etalon::bench

@@ -3,6 +3,7 @@
 
 #include "bench/workloads.h"
 #include "lighting/render_view.h"
+#include "probes/convert.h"
 
 namespace etalon::bench {
 
@@ -37,5 +38,15 @@ Image<float> blurInput();
 // The lat-long image that becomes a cube map: three channels of random texels.
 inline constexpr int kLatLongWidth = 1024, kLatLongHeight = 512, kLatLongCubeSize = 256;
 Image<float> latLongInput();
+
+// 2^this many lights are made of a probe.
+inline constexpr int kLog2Lights = 8;
+
+// A probe of random texels, and the shapes that are converted: 6 to 8 million texels each.
+Probe probeInput(const ProbeShape& shape);
+inline constexpr ProbeShape kLargeLatLong{Mapping::latLong, 4096, 2048},
+    kLargeCube{Mapping::cube, 1024, 1024}, kLargeAngular{Mapping::angular, 2048, 2048},
+    kLargeBall{Mapping::mirrorBall, 2048, 2048}, kLargeNearBall{Mapping::mirrorBall, 2048, 2048, 20},
+    kLargeOctahedral{Mapping::octahedral, 2048, 2048};
 
 }  // namespace etalon::bench

@@ -7,6 +7,7 @@ std::vector<BitCase> bitCases() {
     addNumericCases(cases);
     addRasterCases(cases);
     addImageCases(cases);
+    addLightCases(cases);
     addShadingCases(cases);
     addIrradianceCases(cases);
     return cases;

@@ -27,7 +27,7 @@ struct LightingPasses {
     void (*projectPoints)(RasterReal real, const TransformRows& rows, std::span<const glm::dvec3> from,
                           std::span<ClipVertex> to);
     // lighting/vertex_lighting.h
-    void (*lightVertices)(RasterReal real, const SurfaceScene& scene, const SurfaceMaterial& material,
+    void (*lightVertices)(const Profile& profile, const SurfaceScene& scene, const SurfaceMaterial& material,
                           const PlacedMesh& placed, const glm::dvec3& eye, size_t begin, size_t count,
                           VertexRadiance& radiance);
 };

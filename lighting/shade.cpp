@@ -74,8 +74,8 @@ std::vector<VertexRadiance> lightVerticesOf(const ShadeJob& job) {
         const SurfaceMaterial& material = job.scene->materials[job.scene->instances[i].material];
         parallelFor((count + kVerticesPerTask - 1) / kVerticesPerTask, job.threads, [&](size_t task) {
             const size_t begin = task * kVerticesPerTask;
-            lightingPasses().lightVertices(job.profile->vertex, *job.scene, material, placed, job.view->eye,
-                                           begin, std::min(kVerticesPerTask, count - begin), radiance[i]);
+            lightingPasses().lightVertices(*job.profile, *job.scene, material, placed, job.view->eye, begin,
+                                           std::min(kVerticesPerTask, count - begin), radiance[i]);
         });
     }
     return radiance;

@@ -82,11 +82,11 @@ class TileShaderOf final : public TileShader {
     const ShadeJob& job_;
     K kernels_;
     Lighting lighting_;
+    SamplerSettings sampler_;
     vec3 ambient_, eye_;
     std::vector<bool> casts_;  // for each light whether its visibility is asked for; empty: for none
     LitPoints points_;
     std::vector<double> visibility_;  // for each light, of every fragment
-    SamplerSettings sampler_;
     TileFragments tile_;
     Triangles triangles_;
     std::vector<Bucket> buckets_;  // the first is the background
@@ -96,11 +96,10 @@ class TileShaderOf final : public TileShader {
 };
 
 template <class T>
-TileShaderOf<T>::TileShaderOf(const ShadeJob& job) : job_(job), lighting_(*job.scene) {
+TileShaderOf<T>::TileShaderOf(const ShadeJob& job)
+    : job_(job), lighting_(*job.scene, samplerOf(*job.profile)), sampler_(samplerOf(*job.profile)) {
     ambient_ = constant(job.scene->ambient);
     eye_ = constant(job.view->eye);
-    sampler_.filter = job.profile->textureFilter;
-    sampler_.fractionBits = job.profile->textureFractionBits;
     buckets_.push_back(Bucket{nullptr, nullptr, {}});
     const ShadeRequest& request = job.request;
     if (!job.visibility || job.vertexRadiance ||
@@ -278,11 +277,10 @@ void TileShaderOf<T>::shadeSurface(const Bucket& bucket, const Group& group) {
     const SurfaceMaterial& material = *bucket.material;
     const ShadeRequest& request = job_.request;
     const bool hasDiffuse = hasDiffusePart(material);
-    const bool lit = !lighting_.empty();
     const bool ambient = hasDiffuse && request.needs(ShadeOutput::ambient);
-    const bool diffuse = hasDiffuse && lit && request.needs(ShadeOutput::diffuse);
-    const bool specular =
-        material.kind == MaterialKind::blinnPhong && lit && request.needs(ShadeOutput::specular);
+    const bool diffuse = hasDiffuse && lighting_.hasDiffuse() && request.needs(ShadeOutput::diffuse);
+    const bool specular = material.kind == MaterialKind::blinnPhong && lighting_.hasSpecular() &&
+                          request.needs(ShadeOutput::specular);
     const bool mirror = hasMirrorPart(material) && request.needs(ShadeOutput::mirror);
     const bool distance = request[ShadeOutput::distance], normals = request[ShadeOutput::normals];
     const bool needNormal = diffuse || specular || mirror || normals,

@@ -2,8 +2,10 @@
 // vertex the same text.
 #pragma once
 
+#include <span>
 #include <vector>
 
+#include "lighting/environment_lighting.h"
 #include "lighting/shading_kernels.h"
 #include "lighting/surface_scene.h"
 
@@ -30,19 +32,22 @@ class SurfaceLighting {
         static T visibility(size_t) { return T(1.0); }
     };
 
-    // The lights as T; the scene outlives this.
-    explicit SurfaceLighting(const SurfaceScene& scene) {
+    // The lights as T; the scene outlives this. sampler: of maps.
+    SurfaceLighting(const SurfaceScene& scene, const SamplerSettings& sampler)
+        : environment_(scene.environment.light, sampler) {
         for (const SurfaceLight& light : scene.lights) {
             const bool isFar = light.kind == LightKind::directional;
-            lights_.push_back({&light, constant(isFar ? light.toLight : light.position_m),
-                               constant(isFar ? light.irradiance : light.intensity), constant(light.axis),
-                               T(light.cosInner), T(light.cosOuter), false});
-            lights_.back().isFinite = everyLane(isFinite(lights_.back().power));
+            const vec3 power = constant(isFar ? light.irradiance : light.intensity);
+            lights_.push_back(
+                {constant(isFar ? light.toLight : light.position_m), power, everyLane(isFinite(power))});
+            sources_.push_back(&light);
             hasPlaces_ = hasPlaces_ || !isFar;
         }
     }
 
-    bool empty() const { return lights_.empty(); }
+    // Whether anything is reflected diffusely, and specularly.
+    bool hasDiffuse() const { return !lights_.empty() || !environment_.empty(); }
+    bool hasSpecular() const { return !lights_.empty(); }
     // Whether a light needs the point's position.
     bool hasPlaces() const { return hasPlaces_; }
 
@@ -58,50 +63,43 @@ class SurfaceLighting {
     }
 
     // surface: diffuse reflectance. Components that are not asked for are 0. shadows.casts(l) says whether
-    // light l is multiplied with shadows.visibility(l). Flattened, so that constants stay in registers from
-    // light to light.
+    // light l is multiplied with shadows.visibility(l). Lights are added in their order, the environment
+    // last.
     template <class Shadows = Unshadowed>
-    [[gnu::flatten]] Reflected reflected(const SurfaceMaterial& material, const Point& point, vec3 surface,
-                                         bool diffuse, bool specular, const Shadows& shadows = {}) {
-        const vec3 n = point.normal, toEye = point.toEye;
-        const vec3 colour = constant(material.specular);
-        const T exponent(material.exponent), scale((material.exponent + 8.0) / kEightPi);
+    Reflected reflected(const SurfaceMaterial& material, const Point& point, vec3 surface, bool diffuse,
+                        bool specular, const Shadows& shadows = {}) {
+        const Request request{material, point, surface, diffuse, specular};
         Reflected sum{constant(glm::dvec3(0)), constant(glm::dvec3(0))};
-        // A light behind the surfaces of all lanes adds zeros, unless something here is not finite.
-        const bool hasZeros = everyLane(isFinite(toEye) && isFinite(scale));
+        // Runs of lights that arrive as they are, and single ones that do not.
+        size_t done = 0;
         for (size_t l = 0; l < lights_.size(); l++) {
-            const Light& light = lights_[l];
-            vec3 toLight = light.place, irradiance = light.power;
-            if (light.source->kind != LightKind::directional) {
-                const auto arriving = kernels_.pointLight(light.place, point.position);
-                toLight = arriving.toLight;
-                T part = arriving.perIntensity;
-                if (light.source->kind == LightKind::spot)
-                    part = part * kernels_.spotPart(toLight, light.axis, light.cosInner, light.cosOuter);
-                irradiance = kernels_.scale3(irradiance, part);
-            }
-            const bool isBehind = everyLane(kernels_.dot3(n, toLight) <= T(0.0));
-            if (isBehind && hasZeros && light.isFinite) continue;
-            if (shadows.casts(l)) irradiance = kernels_.scale3(irradiance, shadows.visibility(l));
-            if (diffuse)
-                sum.diffuse = kernels_.add3(sum.diffuse, kernels_.lambert(n, toLight, irradiance, surface));
-            if (specular)
-                sum.specular = kernels_.add3(sum.specular, kernels_.blinnPhong(n, toEye, toLight, irradiance,
-                                                                               colour, exponent, scale));
+            if (sources_[l]->kind == LightKind::directional && !shadows.casts(l)) continue;
+            addLights(request, std::span(lights_).subspan(done, l - done), sum);
+            Light arriving =
+                sources_[l]->kind == LightKind::directional ? lights_[l] : arrivingFrom(l, point);
+            if (shadows.casts(l))
+                arriving.irradiance = kernels_.scale3(arriving.irradiance, shadows.visibility(l));
+            addLights(request, std::span(&arriving, 1), sum);
+            done = l + 1;
         }
+        addLights(request, std::span(lights_).subspan(done), sum);
+        if (diffuse && !environment_.empty()) addEnvironment(request, sum);
         return sum;
     }
 
   private:
     static constexpr double kEightPi = 25.132741228718345;
 
+    // What arrives at a point; of a point or spot light its position and intensity instead.
     struct Light {
-        const SurfaceLight* source;
-        vec3 place;  // the direction towards it, or its position
-        vec3 power;  // irradiance or intensity
-        vec3 axis;
-        T cosInner, cosOuter;
-        bool isFinite;  // whether power is, as a T
+        vec3 toLight, irradiance;
+        bool isFinite;  // whether the irradiance is, in every lane
+    };
+    struct Request {
+        const SurfaceMaterial& material;
+        const Point& point;
+        const vec3& surface;
+        bool diffuse, specular;
     };
 
     using Condition = typename K::boolean;
@@ -109,8 +107,50 @@ class SurfaceLighting {
     static Condition isFinite(const T& a) { return a - a == T(0.0); }
     static Condition isFinite(const vec3& a) { return isFinite(a.x) && isFinite(a.y) && isFinite(a.z); }
 
+    [[gnu::noinline]] Light arrivingFrom(size_t l, const Point& point) {
+        const SurfaceLight& source = *sources_[l];
+        const auto arriving = kernels_.pointLight(lights_[l].toLight, point.position);
+        T part = arriving.perIntensity;
+        if (source.kind == LightKind::spot)
+            part = part * kernels_.spotPart(arriving.toLight, constant(source.axis), T(source.cosInner),
+                                            T(source.cosOuter));
+        const vec3 irradiance = kernels_.scale3(lights_[l].irradiance, part);
+        return {arriving.toLight, irradiance, everyLane(isFinite(irradiance))};
+    }
+
+    // Flattened, so that constants stay in registers from light to light.
+    [[gnu::flatten, gnu::noinline]] void addLights(const Request& request, std::span<const Light> lights,
+                                                   Reflected& total) {
+        const vec3 n = request.point.normal, toEye = request.point.toEye, surface = request.surface;
+        const vec3 colour = constant(request.material.specular);
+        const T exponent(request.material.exponent), scale((request.material.exponent + 8.0) / kEightPi);
+        Reflected sum = total;
+        // A light behind the surfaces of all lanes adds zeros, unless something here is not finite.
+        const bool hasZeros = everyLane(isFinite(toEye) && isFinite(scale));
+        for (const Light& light : lights) {
+            const bool isBehind = everyLane(kernels_.dot3(n, light.toLight) <= T(0.0));
+            if (isBehind && hasZeros && light.isFinite) continue;
+            if (request.diffuse)
+                sum.diffuse =
+                    kernels_.add3(sum.diffuse, kernels_.lambert(n, light.toLight, light.irradiance, surface));
+            if (request.specular)
+                sum.specular = kernels_.add3(
+                    sum.specular,
+                    kernels_.blinnPhong(n, toEye, light.toLight, light.irradiance, colour, exponent, scale));
+        }
+        total = sum;
+    }
+
+    [[gnu::noinline]] void addEnvironment(const Request& request, Reflected& sum) {
+        sum.diffuse = kernels_.add3(
+            sum.diffuse,
+            kernels_.lambertOfIrradiance(environment_.irradiance(request.point.normal), request.surface));
+    }
+
     K kernels_;
+    EnvironmentLighting<T> environment_;
     std::vector<Light> lights_;
+    std::vector<const SurfaceLight*> sources_;
     bool hasPlaces_ = false;
 };
 

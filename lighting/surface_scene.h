@@ -9,6 +9,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
+#include "probes/spherical_harmonics.h"
 #include "raster/image.h"
 
 namespace etalon {
@@ -74,11 +75,25 @@ struct SurfaceInstance {
     bool twoSided = true;        // false: culled when seen from behind
 };
 
+// What diffuse surfaces receive from the environment, beside the lights: irradiance over normals in world
+// space, W/m^2.
+//   harmonics: the function, negative values count as 0
+//   texels: the sum over the texels of a probe, each of them a light (probes/irradiance.h)
+//   map: a cube map of irradiance, looked up along the normal
+struct EnvironmentLight {
+    enum class Kind : uint8_t { none, harmonics, texels, map };
+    Kind kind = Kind::none;
+    SphericalHarmonics harmonics;
+    std::vector<glm::dvec3> directions, flux;  // of each texel: unit vector to it, radiance times solid angle
+    CubeMap<float> map;                        // three channels
+};
+
 // Radiance from far away over directions: a lat-long image (OpenEXR convention), or nothing (black).
 struct SurfaceEnvironment {
     Image<float> latLong;  // 3 channels; empty: constant
     glm::dvec3 constant{0};
     double cosRotation = 1, sinRotation = 0;  // of the environment about +Y
+    EnvironmentLight light;
 };
 
 struct SurfaceScene {

@@ -7,12 +7,13 @@ namespace etalon {
 namespace {
 
 template <class S>
-void lightIn(const SurfaceScene& scene, const SurfaceMaterial& material, const PlacedMesh& placed,
-             const glm::dvec3& eye, size_t begin, size_t count, VertexRadiance& radiance) {
+void lightIn(const Profile& profile, const SurfaceScene& scene, const SurfaceMaterial& material,
+             const PlacedMesh& placed, const glm::dvec3& eye, size_t begin, size_t count,
+             VertexRadiance& radiance) {
     using T = Native<S>;
     using Lighting = SurfaceLighting<T>;
     using vec3 = typename Lighting::vec3;
-    Lighting lighting(scene);
+    Lighting lighting(scene, samplerOf(profile));
     typename Lighting::K kernels;
     forEachLaneGroup<NumberTraits<T>::lanes>(count, [&](size_t first, int active) {
         const auto vertex = [&](int lane) {
@@ -48,13 +49,13 @@ void lightIn(const SurfaceScene& scene, const SurfaceMaterial& material, const P
 
 }  // namespace
 
-void lightVertices(RasterReal real, const SurfaceScene& scene, const SurfaceMaterial& material,
+void lightVertices(const Profile& profile, const SurfaceScene& scene, const SurfaceMaterial& material,
                    const PlacedMesh& placed, const glm::dvec3& eye, size_t begin, size_t count,
                    VertexRadiance& radiance) {
-    if (real == RasterReal::fp32)
-        lightIn<float>(scene, material, placed, eye, begin, count, radiance);
+    if (profile.vertex == RasterReal::fp32)
+        lightIn<float>(profile, scene, material, placed, eye, begin, count, radiance);
     else
-        lightIn<double>(scene, material, placed, eye, begin, count, radiance);
+        lightIn<double>(profile, scene, material, placed, eye, begin, count, radiance);
 }
 
 }  // namespace etalon

@@ -8,7 +8,7 @@
 
 #include "lighting/geometry.h"
 #include "lighting/surface_scene.h"
-#include "raster/render_target.h"
+#include "raster/profile.h"
 
 namespace etalon {
 
@@ -21,8 +21,9 @@ struct VertexRadiance {
     std::array<Side, 2> sides;
 };
 
-// Lights vertices begin .. begin + count - 1 as seen from `eye`; the sides have the size of the mesh.
-void lightVertices(RasterReal real, const SurfaceScene& scene, const SurfaceMaterial& material,
+// In the vertex arithmetic of the profile: lights vertices begin .. begin + count - 1 as seen from `eye`; the
+// sides have the size of the mesh.
+void lightVertices(const Profile& profile, const SurfaceScene& scene, const SurfaceMaterial& material,
                    const PlacedMesh& placed, const glm::dvec3& eye, size_t begin, size_t count,
                    VertexRadiance& radiance);
 

@@ -42,7 +42,9 @@ N powOf(N x, N y) {
 }
 
 // Sine and cosine of an angle in radians, |angle_rad| <= kMaxAngle (PreconditionError otherwise, also for
-// NaN). sinOf(-x) is -sinOf(x), cosOf(-x) is cosOf(x). Errors: kSinErrorUlp, kCosErrorUlp.
+// NaN). sinOf(-x) is -sinOf(x), cosOf(-x) is cosOf(x). Errors: kSinErrorUlp, kCosErrorUlp. Kernel texts have
+// them for every number type: NaN beyond kMaxAngle there; in float and Rounded<F, D> the result in double is
+// rounded once.
 double sinOf(double angle_rad);
 double cosOf(double angle_rad);
 
@@ -88,6 +90,7 @@ struct WideTexts {
 // The texts that need it.
 #include "numeric/kernels/atan2.glsl"
 #include "numeric/kernels/pow.glsl"
+#include "numeric/kernels/sine.glsl"
 
   private:
     static constexpr int kFractionBits = 52;
@@ -145,14 +148,33 @@ Lanes<S, N> powInDouble(Lanes<S, N> x, Lanes<S, N> y, double lowest, bool extend
     });
 }
 
+template <class D>
+D sinInDouble(D angle_rad, double lowest) {
+    if constexpr (std::is_same_v<D, double>)
+        return WideTexts<double>{}.sinWide(angle_rad, lowest);
+    else
+        return byRegisters(angle_rad, angle_rad, [=](auto a, auto) {
+            return WideTexts<decltype(a)>{}.sinWide(a, decltype(a)(lowest));
+        });
+}
+template <class D>
+D cosInDouble(D angle_rad, double lowest) {
+    if constexpr (std::is_same_v<D, double>)
+        return WideTexts<double>{}.cosWide(angle_rad, lowest);
+    else
+        return byRegisters(angle_rad, angle_rad, [=](auto a, auto) {
+            return WideTexts<decltype(a)>{}.cosWide(a, decltype(a)(lowest));
+        });
+}
+
 // Exponent of the smallest normal number, and whether results need more than double.
 template <std::floating_point S>
 inline constexpr double kLowestExponent = sizeof(S) > sizeof(float) ? -1022.0 : -126.0;
 template <std::floating_point S>
 inline constexpr bool kNeedsExtended = sizeof(S) > sizeof(float);
 
-// What atan2Of and powOf are for one number type. A class template, so that class templates that include
-// numeric/kernel_scope.inc find it for number types that are declared after them.
+// What the elementary functions are for one number type. A class template, so that class templates that
+// include numeric/kernel_scope.inc find it for number types that are declared after them.
 template <std::floating_point S>
 struct ElementaryFunctions<S> {
     static S atan2Of(S y, S x) {
@@ -161,12 +183,16 @@ struct ElementaryFunctions<S> {
     static S powOf(S x, S y) {
         return static_cast<S>(powInDouble(x, y, kLowestExponent<S>, kNeedsExtended<S>));
     }
+    static S sinOf(S x) { return static_cast<S>(sinInDouble(static_cast<double>(x), kLowestExponent<S>)); }
+    static S cosOf(S x) { return static_cast<S>(cosInDouble(static_cast<double>(x), kLowestExponent<S>)); }
 };
 template <class S, int N>
 struct ElementaryFunctions<Lanes<S, N>> {
     using L = Lanes<S, N>;
     static L atan2Of(L y, L x) { return atan2InDouble(y, x, kLowestExponent<S>, kNeedsExtended<S>); }
     static L powOf(L x, L y) { return powInDouble(x, y, kLowestExponent<S>, kNeedsExtended<S>); }
+    static L sinOf(L x) { return sinInDouble(x, kLowestExponent<S>); }
+    static L cosOf(L x) { return cosInDouble(x, kLowestExponent<S>); }
 };
 template <Format F, class D>
 struct ElementaryFunctions<Rounded<F, D>> {
@@ -175,6 +201,8 @@ struct ElementaryFunctions<Rounded<F, D>> {
         F.minExponent - (F.subnormals == Subnormals::keep ? F.significandBits - 1 : 0);
     static R atan2Of(R y, R x) { return R(atan2InDouble(y.v, x.v, kLowest, false)); }
     static R powOf(R x, R y) { return R(powInDouble(x.v, y.v, kLowest, false)); }
+    static R sinOf(R x) { return R(sinInDouble(x.v, kLowest)); }
+    static R cosOf(R x) { return R(cosInDouble(x.v, kLowest)); }
 };
 
 }  // namespace etalon

@@ -29,7 +29,7 @@ struct NumberTraits<Lanes<S, N>> {
     using Integer = Lanes<int32_t, N>;
 };
 
-// atan2Of and powOf for a number type: numeric/elementary.h.
+// The elementary functions for a number type: numeric/elementary.h.
 template <class T>
 struct ElementaryFunctions;
 

@@ -253,6 +253,35 @@ Lanes<S, N> loadActive(const S* from, int active) {
     return Lanes<S, N>::generate([&](int i) { return from[i < active ? i : active - 1]; });
 }
 
+// Lane i of first and second: the numbers at from[i] + offset and behind it. Both are loaded at once, so that
+// each lane costs one access.
+template <int N>
+[[gnu::always_inline]] inline void loadPairs(const std::array<const float*, static_cast<size_t>(N)>& from,
+                                             size_t offset, Lanes<float, N>& first, Lanes<float, N>& second) {
+    static_assert(sizeof(double) == 2 * sizeof(float));
+    if constexpr (N == 1) {
+        first.v[0] = from[0][offset], second.v[0] = from[0][offset + 1];
+    } else {
+        // The bits of two floats move as those of a double.
+        const auto pair = [&](int i) {
+            double bits;
+            std::memcpy(&bits, from[static_cast<size_t>(i)] + offset, sizeof(bits));
+            return bits;
+        };
+        const auto half = [&]<int... I>(int start, std::integer_sequence<int, I...>) {
+            typedef double Pairs __attribute__((vector_size(N / 2 * sizeof(double))));
+            return __builtin_bit_cast(typename Lanes<float, N>::Vector, Pairs{pair(start + I)...});
+        };
+        const auto lower = half(0, std::make_integer_sequence<int, N / 2>{});
+        const auto upper = half(N / 2, std::make_integer_sequence<int, N / 2>{});
+        [&]<int... I>(std::integer_sequence<int, I...>) {
+            first = Lanes<float, N>(__builtin_shufflevector(lower, upper, 2 * I...));
+            second = Lanes<float, N>(__builtin_shufflevector(lower, upper, 2 * I + 1 ...));
+        }
+        (std::make_integer_sequence<int, N>{});
+    }
+}
+
 // Stores the first `active` lanes and touches nothing behind them.
 template <class S, int N>
 void storeActive(Lanes<S, N> a, S* to, int active) {

@@ -1,4 +1,5 @@
-// atan2Of and powOf for Truth, through MPFR: correctly rounded to Truth::kBits bits. Link etalon::truth.
+// The elementary functions of kernel texts for Truth, through MPFR: correctly rounded to Truth::kBits bits.
+// Link etalon::truth.
 #pragma once
 
 #include "numeric/elementary.h"
@@ -23,6 +24,16 @@ struct ElementaryFunctions<Truth> {
             mpfr_set_nan(r.get());
         else
             mpfr_pow(r.get(), base.get(), y.get(), MPFR_RNDN);
+        return r;
+    }
+    static Truth sinOf(const Truth& x) {
+        Truth r;
+        mpfr_sin(r.get(), x.get(), MPFR_RNDN);
+        return r;
+    }
+    static Truth cosOf(const Truth& x) {
+        Truth r;
+        mpfr_cos(r.get(), x.get(), MPFR_RNDN);
         return r;
     }
 };

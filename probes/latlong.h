@@ -22,7 +22,7 @@
 
 #include "numeric/elementary.h"
 #include "numeric/kernel_types.h"
-#include "numeric/parallel.h"
+#include "probes/laned_columns.h"
 #include "raster/cube_face.h"
 #include "raster/image.h"
 #include "raster/sampler.h"
@@ -58,6 +58,11 @@ class LatLongGrid {
         const auto i = static_cast<size_t>(x), j = static_cast<size_t>(y);
         return {sinLongitude_[i] * cosLatitude_[j], sinLatitude_[j], cosLongitude_[i] * cosLatitude_[j]};
     }
+    // Of column x and of row y.
+    double sinLongitude(int x) const { return sinLongitude_[static_cast<size_t>(x)]; }
+    double cosLongitude(int x) const { return cosLongitude_[static_cast<size_t>(x)]; }
+    double sinLatitude(int y) const { return sinLatitude_[static_cast<size_t>(y)]; }
+    double cosLatitude(int y) const { return cosLatitude_[static_cast<size_t>(y)]; }
     // Solid angle of each texel of row y, in steradians; over the image they add up to 4 pi (relative 2^-48).
     double solidAngle_sr(int y) const { return solidAngle_sr_[static_cast<size_t>(y)]; }
 
@@ -88,32 +93,33 @@ CubeMap<float> cubeFromLatLong(const Image<float>& latLong, int size, const Cube
     const TextureView texture(latLong);
     const auto sampling = samplingOf<Kernel>(
         {options.filter, Wrap::repeat, Wrap::clamp, options.fractionBits}, latLong.width(), latLong.height());
-    // The coordinate of part `part` of texel i, in double.
-    auto coordinate = [&](int i, int part) {
-        return (static_cast<double>(i) * parts + part + 0.5) / (static_cast<double>(size) * parts);
-    };
+    const LanedColumns<T> columns(size, parts,
+                                  [&](int x, int part) { return coordinateOf(x, part, size, parts); });
     const T weight(1.0 / (parts * parts));
 
     CubeMap<float> cube(size, 3);
-    parallelFor(static_cast<size_t>(kCubeFaces * size), threads, [&](size_t item) {
-        const int face = static_cast<int>(item) / size, y = static_cast<int>(item) % size;
-        Image<float>& image = cube.faces[static_cast<size_t>(face)];
+    parallelForRowBlocks(size, threads, [&](int y0, int y1) {
         Kernel kernel;
-        forEachLaneGroup<kWidth>(static_cast<size_t>(size), [&](size_t first, int active) {
-            vec3 sum{T(0.0), T(0.0), T(0.0)};
-            for (int j = 0; j < parts; j++)
-                for (int i = 0; i < parts; i++) {
-                    const T s = generateNumber<T>(
-                        [&](int lane) { return coordinate(static_cast<int>(first) + lane, i); });
-                    const vec3 direction =
-                        kernel.cubeDirection(typename Kernel::integer(face), s, T(coordinate(y, j)));
-                    const vec3 value = kernel.sampleLatLong(texture, direction, sampling);
-                    for (int c = 0; c < 3; c++) sum[c] = i == 0 && j == 0 ? value[c] : sum[c] + value[c];
+        for (int face = 0; face < kCubeFaces; face++) {
+            Image<float>& image = cube.faces[static_cast<size_t>(face)];
+            forEachLaneGroup<kWidth>(static_cast<size_t>(size), [&](size_t first, int active) {
+                for (int y = y0; y < y1; y++) {
+                    vec3 sum{T(0.0), T(0.0), T(0.0)};
+                    for (int j = 0; j < parts; j++)
+                        for (int i = 0; i < parts; i++) {
+                            const vec3 direction =
+                                kernel.cubeDirection(typename Kernel::integer(face), columns.at(first, i),
+                                                     T(coordinateOf(y, j, size, parts)));
+                            const vec3 value = kernel.sampleLatLong(texture, direction, sampling);
+                            for (int c = 0; c < 3; c++)
+                                sum[c] = i == 0 && j == 0 ? value[c] : sum[c] + value[c];
+                        }
+                    for (int c = 0; c < 3; c++)
+                        TexelFetch<T>::store(parts == 1 ? sum[c] : sum[c] * weight,
+                                             image.row(y, c).data() + first, active);
                 }
-            for (int c = 0; c < 3; c++)
-                TexelFetch<T>::store(parts == 1 ? sum[c] : sum[c] * weight, image.row(y, c).data() + first,
-                                     active);
-        });
+            });
+        }
     });
     return cube;
 }

@@ -16,7 +16,7 @@ constexpr size_t kNone = std::numeric_limits<size_t>::max();
 double squareOf(const glm::dvec3& v) { return v.x * v.x + (v.y * v.y + v.z * v.z); }
 
 // Which column each row takes so that the sum of cost(row, column) is smallest; rows <= columns, costs are
-// finite. By shortest augmenting paths [Kuhn1955] [Jonker1987]; row and column 0 of the working arrays stand
+// finite. By shortest augmenting paths [Jonker1987]; row and column 0 of the working arrays stand
 // for none.
 template <class Cost>
 std::vector<size_t> assignRows(size_t rows, size_t columns, Cost&& cost) {

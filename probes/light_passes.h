@@ -12,6 +12,7 @@ namespace etalon {
 
 struct LightPasses {
     // probes/summed_area.h
+    Image<double> (*roundedValues)(const Image<double>& values, int threads);
     Image<double> (*summedArea)(const Image<double>& values, int threads);
     Image<double> (*boxSums)(const Image<double>& table, int width, int height, int threads);
     // probes/light_irradiance.h

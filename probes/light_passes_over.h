@@ -9,7 +9,7 @@ namespace etalon {
 
 template <class T>
 LightPasses lightPassesOver() {
-    return {summedArea<T>, boxSums<T>, irradianceOfLights<T>};
+    return {roundedValues<T>, summedArea<T>, boxSums<T>, irradianceOfLights<T>};
 }
 
 }  // namespace etalon

@@ -1,6 +1,7 @@
 // Passes between the mappings of a probe, once per arithmetic (raster/fragment_numbers.h).
 #pragma once
 
+#include "probes/conversion_job.h"
 #include "probes/latlong.h"
 #include "raster/profile.h"
 
@@ -10,6 +11,10 @@ struct MappingPasses {
     // probes/latlong.h
     CubeMap<float> (*cubeFromLatLong)(const Image<float>& latLong, int size, const CubeFromLatLong& options,
                                       int threads);
+    // probes/convert.h; the images of the result have their sizes. Writes every texel.
+    void (*convertImages)(const ConversionJob& job, Probe& result);
+    void (*latLongFromCube)(const CubeMap<float>& cube, const LatLongFromCube& options, int threads,
+                            Image<float>& latLong);
 };
 
 // Those of an arithmetic.

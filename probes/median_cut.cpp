@@ -31,11 +31,13 @@ glm::dvec3 latLongDirection(const ImagePoint& p, int width, int height) {
     return {sinOf(longitude) * ring, sinOf(latitude), cosOf(longitude) * ring};
 }
 
-bool isWider(const TexelRegion& r, const EnergyTable& table, LongerSide side) {
+bool isWide(const TexelRegion& r, const EnergyTable& table, const MedianCut& options) {
     const double angle = 2.0 * r.width() / table.width();
-    const double along =
-        side == LongerSide::angle ? angle : angle * cosOf(latitude_rad(middleOf(r).y, table.height()));
-    return along > static_cast<double>(r.height()) / table.height();
+    const double along = options.side == LongerSide::angle
+                             ? angle
+                             : angle * cosOf(latitude_rad(middleOf(r).y, table.height()));
+    const double down = static_cast<double>(r.height()) / table.height();
+    return along > down || (along == down && options.cutsSquaresInColumns);
 }
 
 // The place first < i < last where sumUpTo(i) is nearest to half of `whole`.
@@ -51,12 +53,12 @@ int evenCut(int first, int last, double whole, SumUpTo&& sumUpTo) {
 }
 
 // Appends the parts of a region, or the region if it is one texel.
-void cutInTwo(const TexelRegion& r, const EnergyTable& table, LongerSide side,
+void cutInTwo(const TexelRegion& r, const EnergyTable& table, const MedianCut& options,
               std::vector<TexelRegion>& out) {
     if (r.width() == 1 && r.height() == 1) return out.push_back(r);
     const double whole = table.sum(r);
     const bool isDark = !(whole > table.noise());
-    const bool cutsColumns = r.height() == 1 || (r.width() > 1 && isWider(r, table, side));
+    const bool cutsColumns = r.height() == 1 || (r.width() > 1 && isWide(r, table, options));
     TexelRegion before = r, after = r;
     if (cutsColumns) {
         before.x1 = after.x0 = isDark ? r.x0 + r.width() / 2 : evenCut(r.x0, r.x1, whole, [&](int x) {
@@ -71,26 +73,51 @@ void cutInTwo(const TexelRegion& r, const EnergyTable& table, LongerSide side,
     out.push_back(after);
 }
 
-std::vector<TexelRegion> cutRegions(const EnergyTable& table, const MedianCut& options) {
-    std::vector<TexelRegion> regions = {{0, 0, table.width(), table.height()}};
-    for (int level = 0; level < std::min(options.log2Count, kMaxLog2Lights); level++) {
-        std::vector<TexelRegion> next;
-        next.reserve(2 * regions.size());
-        for (const TexelRegion& region : regions) cutInTwo(region, table, options.side, next);
-        if (next.size() == regions.size()) break;
-        regions = std::move(next);
-    }
-    return regions;
+ImagePoint medianOf(const TexelRegion& r, const EnergyTable& table) {
+    const double half = 0.5 * table.sum(r);
+    int x = r.x0, y = r.y0;
+    while (x + 1 < r.x1 && table.sum({r.x0, r.y0, x + 1, r.y1}) < half) x++;
+    while (y + 1 < r.y1 && table.sum({r.x0, r.y0, r.x1, y + 1}) < half) y++;
+    return {x + 0.5, y + 0.5};
 }
 
-ImagePoint placeOf(const TexelRegion& r, const EnergyTable& table, LightPlace place) {
-    const double whole = table.sum(r);
-    if (place == LightPlace::centre || !(whole > table.noise())) return middleOf(r);
-    // Sum of (i + 1/2) e_i, e_i the energy of column or row i, from the energies of all columns up to i.
-    double x = (r.x1 - 0.5) * whole, y = (r.y1 - 0.5) * whole;
-    for (int i = r.x0 + 1; i < r.x1; i++) x -= table.sum({r.x0, r.y0, i, r.y1});
-    for (int i = r.y0 + 1; i < r.y1; i++) y -= table.sum({r.x0, r.y0, r.x1, i});
-    return {std::clamp(x / whole, r.x0 + 0.5, r.x1 - 0.5), std::clamp(y / whole, r.y0 + 0.5, r.y1 - 0.5)};
+// The mean of the texels' centres weighted with columnSum(i, j) of columns i ... j - 1 and rowSum(i, j).
+template <class ColumnSum, class RowSum>
+ImagePoint centroidOf(const TexelRegion& r, ColumnSum&& columnSum, RowSum&& rowSum) {
+    // Sum of (i + 1/2) e_i, e_i the weight of column or row i, from the weights of all columns up to i.
+    const auto mean = [](int first, int last, auto&& sum) {
+        const double whole = sum(first, last);
+        double moment = (last - 0.5) * whole;
+        for (int i = first + 1; i < last; i++) moment -= sum(first, i);
+        return std::clamp(moment / whole, first + 0.5, last - 0.5);
+    };
+    return {mean(r.x0, r.x1, columnSum), mean(r.y0, r.y1, rowSum)};
+}
+
+ImagePoint placeOf(const TexelRegion& r, const EnergyTable& table, std::span<const double> weights,
+                   LightPlace place) {
+    if (!(table.sum(r) > table.noise())) return middleOf(r);
+    const auto columnSum = [&](int i, int j) { return table.sum({i, r.y0, j, r.y1}); };
+    const auto rowSum = [&](int i, int j) { return table.sum({r.x0, i, r.x1, j}); };
+    switch (place) {
+        case LightPlace::centre:
+            return middleOf(r);
+        case LightPlace::median:
+            return medianOf(r, table);
+        case LightPlace::centroid:
+            return centroidOf(r, columnSum, rowSum);
+        case LightPlace::centroidTwice:
+            break;
+    }
+    const auto twice = [&](int x0, int x1, int y0, int y1) {
+        double sum = 0.0;
+        for (int y = y0; y < y1; y++) sum += weights[static_cast<size_t>(y)] * table.sum({x0, y, x1, y + 1});
+        return sum;
+    };
+    if (!(twice(r.x0, r.x1, r.y0, r.y1) > 0.0)) return middleOf(r);
+    return centroidOf(
+        r, [&](int i, int j) { return twice(i, j, r.y0, r.y1); },
+        [&](int i, int j) { return twice(r.x0, r.x1, i, j); });
 }
 
 // The radiance with black texels where it is not valid.
@@ -136,18 +163,30 @@ std::vector<double> texelWeights(int width, int height, TexelWeight weight) {
     return weights;
 }
 
-LightsOfProbe medianCutLights(const Probe& probe, const MedianCut& options, int threads) {
-    ETALON_CHECK(probe.shape.mapping == Mapping::latLong && options.log2Count >= 0, "mapping {}, 2^{} lights",
-                 static_cast<int>(probe.shape.mapping), options.log2Count);
+std::vector<TexelRegion> medianCutRegions(const EnergyTable& table, const MedianCut& options) {
+    std::vector<TexelRegion> regions = {{0, 0, table.width(), table.height()}};
+    for (int level = 0; level < std::min(options.log2Count, kMaxLog2Lights); level++) {
+        std::vector<TexelRegion> next;
+        next.reserve(2 * regions.size());
+        for (const TexelRegion& region : regions) cutInTwo(region, table, options, next);
+        if (next.size() == regions.size()) break;
+        regions = std::move(next);
+    }
+    return regions;
+}
+
+LightsOfProbe lightsOfRegions(const Probe& probe, const EnergyTable& table,
+                              std::span<const TexelRegion> regions, const MedianCut& options, int threads) {
     const int width = probe.shape.width, height = probe.shape.height;
+    ETALON_CHECK(
+        probe.shape.mapping == Mapping::latLong && table.width() == width && table.height() == height,
+        "mapping {}, {}x{} texels, table of {}x{}", static_cast<int>(probe.shape.mapping), width, height,
+        table.width(), table.height());
     Image<float> masked;
     if (!probe.valid.empty()) masked = maskedRadiance(probe);
     const Image<float>& radiance = probe.valid.empty() ? probe.radiance[0] : masked;
     const std::vector<double> weights = texelWeights(width, height, options.weight);
     const std::vector<double> solidAngles = texelWeights(width, height, TexelWeight::exact);
-    const EnergyTable table(radiance, weights, threads);
-    const std::vector<TexelRegion> regions = cutRegions(table, options);
-
     LightsOfProbe result;
     result.lights.resize(regions.size());
     std::vector<size_t> uncounted(regions.size());
@@ -160,12 +199,21 @@ LightsOfProbe medianCutLights(const Probe& probe, const MedianCut& options, int 
         uncounted[i] = sums.uncountedValues;
         for (int y = r.y0; y < r.y1; y++)
             light.solidAngle_sr += solidAngles[static_cast<size_t>(y)] * r.width();
-        const ImagePoint point = placeOf(r, table, options.place);
+        const ImagePoint point = placeOf(r, table, weights, options.place);
         light.direction = probe.rotation * latLongDirection(point, width, height);
         light.position_m = positionAt(probe, point, light.direction);
     });
     for (const size_t count : uncounted) result.uncountedValues += count;
     return result;
+}
+
+LightsOfProbe medianCutLights(const Probe& probe, const MedianCut& options, int threads) {
+    ETALON_CHECK(probe.shape.mapping == Mapping::latLong && options.log2Count >= 0, "mapping {}, 2^{} lights",
+                 static_cast<int>(probe.shape.mapping), options.log2Count);
+    const std::vector<double> weights = texelWeights(probe.shape.width, probe.shape.height, options.weight);
+    const EnergyTable table(probe.valid.empty() ? probe.radiance[0] : maskedRadiance(probe), weights,
+                            threads);
+    return lightsOfRegions(probe, table, medianCutRegions(table, options), options, threads);
 }
 
 }  // namespace etalon

@@ -5,10 +5,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "probes/probe.h"
 #include "probes/probe_light.h"
+#include "probes/summed_area.h"
 
 namespace etalon {
 
@@ -22,8 +24,7 @@ namespace etalon {
 enum class TexelWeight : uint8_t { exact, midpoint, edge, uniform };
 std::vector<double> texelWeights(int width, int height, TexelWeight weight);
 
-// Which side of a region is the longer one; of two equal ones, the vertical one: it is cut into an upper and
-// a lower part.
+// Which side of a region is the longer one.
 //   angle: its extents in longitude and latitude are compared as angles: texels, if the image is twice as
 //   wide
 //     as high
@@ -31,9 +32,15 @@ std::vector<double> texelWeights(int width, int height, TexelWeight weight);
 //     the latitude
 enum class LongerSide : uint8_t { angle, arc };
 
-// Where the light of a region lies: in the middle of its rectangle in the image, or in the mean of its
-// texels' centres in the image weighted by their energy.
-enum class LightPlace : uint8_t { centre, centroid };
+// Where the light of a region lies in the image.
+//   centre: in the middle of its rectangle
+//   centroid: in the mean of its texels' centres, weighted by their energy
+//   median: in the centre of the texel in whose column and row the energy of the columns before it, and the
+//     rows, reaches half of the region's
+//   centroidTwice: as centroid, with the row's weight taken twice: as of an image that had been multiplied by
+//     the weights before; of the tested ways the one nearest to the means that [Pedersen2008, Table 7.1]
+//     prints (docs/experiments/lights.md)
+enum class LightPlace : uint8_t { centre, centroid, median, centroidTwice };
 
 // K beyond which nothing changes: no image has more texels.
 inline constexpr int kMaxLog2Lights = 32;
@@ -43,6 +50,9 @@ struct MedianCut {
     LongerSide side = LongerSide::arc;
     LightPlace place = LightPlace::centroid;
     TexelWeight weight = TexelWeight::exact;
+    // A region whose sides are of the same length is cut into a left and a right part, else into an upper and
+    // a lower one.
+    bool cutsSquaresInColumns = false;
 };
 
 struct LightsOfProbe {
@@ -70,5 +80,12 @@ struct LightsOfProbe {
 // position_m: where the probe has distances, of the texel that the light lies in, if that distance is finite
 // and above 0. `threads` as in parallelFor; neither it nor the instruction set changes a bit.
 LightsOfProbe medianCutLights(const Probe& probe, const MedianCut& options = {}, int threads = 0);
+
+// Its two steps, for tables of another arithmetic: the regions, and their lights. The table and the regions
+// are of the probe's size.
+std::vector<TexelRegion> medianCutRegions(const EnergyTable& table, const MedianCut& options);
+LightsOfProbe lightsOfRegions(const Probe& probe, const EnergyTable& table,
+                              std::span<const TexelRegion> regions, const MedianCut& options,
+                              int threads = 0);
 
 }  // namespace etalon

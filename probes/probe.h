@@ -11,18 +11,32 @@
 
 namespace etalon {
 
-// How directions lie on images; docs/conventions.md has the formulas.
+// How directions lie on images; probes/mapping.h has the formulas.
 //   latLong: one image, any width and height (probes/latlong.h)
 //   cube: six square images, the faces +X -X +Y -Y +Z -Z (raster/cube_face.h)
 //   angular: one square image, the polar angle grows linearly with the radius [Debevec98]
 //   mirrorBall: one square image, a mirror ball that fills it, seen from ballDistance_radii
 //   octahedral: one square image, of equal areas [Clarberg2008]
-enum class Mapping : uint8_t { latLong, cube, angular, mirrorBall, octahedral };
+//   latLongPedersen: as latLong, with the axes of [Pedersen2008, Listing 6.1]
+// The numbers are those of probes/kernels/mapping.glsl.
+enum class Mapping : uint8_t {
+    latLong = 0,
+    cube = 1,
+    angular = 2,
+    mirrorBall = 3,
+    octahedral = 4,
+    latLongPedersen = 5
+};
+
+// True if rows are latitudes and columns longitudes.
+inline bool isLatLong(Mapping mapping) {
+    return mapping == Mapping::latLong || mapping == Mapping::latLongPedersen;
+}
 
 // A mapping with its texels.
 struct ProbeShape {
     Mapping mapping = Mapping::latLong;
-    int width = 0, height = 0;  // of each image; height is width for all but latLong
+    int width = 0, height = 0;  // of each image; height is width for all but lat-long
     // Of mirrorBall: from the eye to the middle of the ball in radii of the ball, above 1; infinity is the
     // orthographic view.
     double ballDistance_radii = std::numeric_limits<double>::infinity();

@@ -47,4 +47,14 @@ EnergyTable::EnergyTable(const Image<float>& radiance, std::span<const double> r
                 bandStart_[(band - 1) * width + x] + inBand_[(band * kBandRows - 1) * width + x];
 }
 
+EnergyTable::EnergyTable(const Image<double>& entries)
+    : width_(entries.width()),
+      height_(entries.height()),
+      inBand_(allocateTable(entries.pixelCount()), std::free),
+      bandStart_(static_cast<size_t>((height_ + kBandRows - 1) / kBandRows) * static_cast<size_t>(width_)) {
+    ETALON_CHECK(entries.channels() == 1 && !entries.empty(), "{}x{} entries with {} channels", width_,
+                 height_, entries.channels());
+    std::copy(entries.values().begin(), entries.values().end(), inBand_.get());
+}
+
 }  // namespace etalon

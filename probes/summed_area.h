@@ -36,6 +36,10 @@ class EnergyTable {
     // Three channels, at least one texel; a weight for each row.
     EnergyTable(const Image<float>& radiance, std::span<const double> rowWeights, int threads);
 
+    // From the entries of a table of one channel, as summedArea computes them in any arithmetic; sums of them
+    // are in double.
+    explicit EnergyTable(const Image<double>& entries);
+
     int width() const { return width_; }
     int height() const { return height_; }
 
@@ -67,6 +71,27 @@ struct SummedAreaKernel {
 #include "numeric/kernel_scope.inc"
 #include "probes/kernels/summed_area.glsl"
 };
+
+// The values, each rounded once to T.
+template <class T>
+Image<double> roundedValues(const Image<double>& values, int threads) {
+    constexpr int kWidth = NumberTraits<T>::lanes;
+    Image<double> result = values;
+    parallelFor(static_cast<size_t>(values.height()) * static_cast<size_t>(values.channels()), threads,
+                [&](size_t item) {
+                    const auto height = static_cast<size_t>(values.height());
+                    const auto row =
+                        result.row(static_cast<int>(item % height), static_cast<int>(item / height));
+                    forEachLaneGroup<kWidth>(row.size(), [&](size_t first, int active) {
+                        const T rounded = generateNumber<T>([&](int lane) {
+                            return row[first + static_cast<size_t>(std::min(lane, active - 1))];
+                        });
+                        for (int lane = 0; lane < active; lane++)
+                            row[first + static_cast<size_t>(lane)] = numberLane(rounded, lane);
+                    });
+                });
+    return result;
+}
 
 // Entry (x, y): the sum of the texels in columns 0 ... x and rows 0 ... y, in the arithmetic T. Each row is
 // summed from the left, then these sums from above, every sum rounded to T. One channel.

@@ -36,6 +36,14 @@ struct Profile {
     Filter textureFilter = Filter::bilinear;  // of float textures
 };
 
+// How float textures are sampled.
+inline SamplerSettings samplerOf(const Profile& profile) {
+    SamplerSettings settings;
+    settings.filter = profile.textureFilter;
+    settings.fractionBits = profile.textureFractionBits;
+    return settings;
+}
+
 // All profiles; the first is the default.
 std::span<const Profile> profiles();
 

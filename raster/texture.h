@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "numeric/kernel_types.h"
 #include "numeric/number_lanes.h"
@@ -27,10 +28,19 @@ class TextureView {
     }
     // All six faces have the same size and channels.
     explicit TextureView(const CubeMap<float>& cube) : TextureView(cube.faces[0]) {
-        setFaces(cube, [](Layer& layer, const Image<float>& face) { layer.narrow = face.values().data(); });
+        setFaces(std::span(cube.faces),
+                 [](Layer& layer, const Image<float>& face) { layer.narrow = face.values().data(); });
     }
     explicit TextureView(const CubeMap<double>& cube) : TextureView(cube.faces[0]) {
-        setFaces(cube, [](Layer& layer, const Image<double>& face) { layer.wide = face.values().data(); });
+        setFaces(std::span(cube.faces),
+                 [](Layer& layer, const Image<double>& face) { layer.wide = face.values().data(); });
+    }
+    // 1 .. kMaxLayers images of one shape.
+    explicit TextureView(std::span<const Image<float>> layers) {
+        ETALON_CHECK(!layers.empty() && layers.size() <= kMaxLayers, "{} layers", layers.size());
+        setShape(layers[0]);
+        setFaces(layers,
+                 [](Layer& layer, const Image<float>& image) { layer.narrow = image.values().data(); });
     }
 
     int width() const { return width_; }
@@ -39,13 +49,23 @@ class TextureView {
 
     // The stored value; 0 <= layer < layers, 0 <= channel < channels(), 0 <= x < width(), 0 <= y < height().
     double stored(int layer, int channel, int x, int y) const {
+        return storedAs<double>(layer, channel, x, y);
+    }
+    // The same, rounded once to S.
+    template <class S>
+    S storedAs(int layer, int channel, int x, int y) const {
         const size_t i =
             (static_cast<size_t>(channel) * static_cast<size_t>(height_) + static_cast<size_t>(y)) *
                 static_cast<size_t>(width_) +
             static_cast<size_t>(x);
         const Layer& l = layers_[static_cast<size_t>(layer)];
-        return isDouble_ ? l.wide[i] : static_cast<double>(l.narrow[i]);
+        return isDouble_ ? static_cast<S>(l.wide[i]) : static_cast<S>(l.narrow[i]);
     }
+    // The first channel of a layer stored as float; null where texels are doubles.
+    const float* floats(int layer) const {
+        return isDouble_ ? nullptr : layers_[static_cast<size_t>(layer)].narrow;
+    }
+    size_t planeSize() const { return static_cast<size_t>(width_) * static_cast<size_t>(height_); }
 
   private:
     union Layer {
@@ -58,12 +78,12 @@ class TextureView {
         ETALON_CHECK(!image.empty(), "texture of {}x{}", image.width(), image.height());
         width_ = image.width(), height_ = image.height(), channels_ = image.channels();
     }
-    template <class S, class Set>
-    void setFaces(const CubeMap<S>& cube, Set set) {
-        for (size_t f = 0; f < cube.faces.size(); f++) {
-            const Image<S>& face = cube.faces[f];
-            ETALON_CHECK(face.width() == width_ && face.height() == width_ && face.channels() == channels_,
-                         "cube face {} is {}x{} with {} channels, face 0 is {}x{} with {}", f, face.width(),
+    template <class Images, class Set>
+    void setFaces(const Images& images, Set set) {
+        for (size_t f = 0; f < images.size(); f++) {
+            const auto& face = images[f];
+            ETALON_CHECK(face.width() == width_ && face.height() == height_ && face.channels() == channels_,
+                         "layer {} is {}x{} with {} channels, layer 0 is {}x{} with {}", f, face.width(),
                          face.height(), face.channels(), width_, height_, channels_);
             set(layers_[f], face);
         }
@@ -101,8 +121,28 @@ struct TexelFetch {
     static T of(const TextureView& t, Integer layer, int channel, Integer x, Integer y) {
         if constexpr (kCount == 1)
             return T(t.stored(layer, channel, x, y));
+        else if constexpr (std::is_same_v<T, Lanes<float, kCount>>)
+            return T::generate([&](int i) { return t.storedAs<float>(layer[i], channel, x[i], y[i]); });
         else
             return generateNumber<T>([&](int i) { return t.stored(layer[i], channel, x[i], y[i]); });
+    }
+    // The first three channels of two texels, if the second one is stored behind the first one in every lane
+    // and T is lanes of the stored type; else false, and nothing is written.
+    static bool neighbours(const TextureView& t, Integer layer0, Integer x0, Integer y0, Integer layer1,
+                           Integer x1, Integer y1, glm::vec<3, T>& first, glm::vec<3, T>& second) {
+        if constexpr (std::is_same_v<T, Lanes<float, kCount>>) {
+            constexpr size_t kLargest = size_t{1} << 31;
+            if (t.planeSize() >= kLargest || !t.floats(0)) return false;
+            const Integer width = Integer(static_cast<double>(t.width()));
+            const Integer offset = y0 * width + x0;
+            if (anyOf(offset + Integer(1.0) != y1 * width + x1 || layer0 != layer1)) return false;
+            std::array<const float*, static_cast<size_t>(kCount)> texels;
+            for (int i = 0; i < kCount; i++) texels[static_cast<size_t>(i)] = t.floats(layer0[i]) + offset[i];
+            for (int c = 0; c < 3; c++)
+                loadPairs(texels, static_cast<size_t>(c) * t.planeSize(), first[c], second[c]);
+            return true;
+        }
+        return false;
     }
     // One texel per lane, contiguous from `from`.
     template <class Stored>

@@ -17,6 +17,7 @@ real minOf(real a, real b) { return b < a ? b : a; }
 real maxOf(real a, real b) { return a < b ? b : a; }
 real clampOf(real x, real lo, real hi) { return minOf(hi, maxOf(lo, x)); }
 real absOf(real a) { return a < 0.0 ? -a : a; }
+#define isAny(c) (c)
 // For the texts written over `wide` (numeric/elementary.h has the C++ counterparts). They are macros, so that
 // a shader without doubles stays one.
 #define wide double
@@ -25,7 +26,9 @@ real absOf(real a) { return a < 0.0 ? -a : a; }
 #define significandOf(a) \
     packDouble2x32(uvec2(unpackDouble2x32(a).x, (unpackDouble2x32(a).y & 0x000FFFFFu) | 0x3FF00000u))
 #define powerOfTwo(k) packDouble2x32(uvec2(0u, uint(int(k) + 1023) << 20u))
-// A text that calls one of these names numeric/kernels/wide.glsl and atan2.glsl or pow.glsl in its "needs"
-// lines.
+// A text that calls one of these names numeric/kernels/wide.glsl and atan2.glsl, pow.glsl or sine.glsl in its
+// "needs" lines.
 #define atan2Of(y, x) float(atan2Wide(double(y), double(x), double(-126.0), false))
 #define powOf(x, y) float(powWide(double(x), double(y), double(-126.0), false))
+#define sinOf(angle_rad) float(sinWide(double(angle_rad), double(-126.0)))
+#define cosOf(angle_rad) float(cosWide(double(angle_rad), double(-126.0)))

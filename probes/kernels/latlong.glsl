@@ -20,12 +20,20 @@ LatLongCoordinates latLongCoordinates(vec3 d) {
     return c;
 }
 
-vec3 sampleLatLong(texture env, vec3 direction, Sampling s) {
-    LatLongCoordinates c = latLongCoordinates(direction);
-    if (s.filterMode == 0)
-        return fetchRgb(env, integer(0), nearestTexel(c.u, s.width), nearestTexel(c.v, s.height));
-    TexelPair x = texelPair(c.u * real(s.width) - real(0.5), s.fractionBits);
-    TexelPair y = texelPair(c.v * real(s.height) - real(0.5), s.fractionBits);
+// The four texels of a bilinear sample, upper and lower row, and the weights of the right and lower ones.
+struct LatLongTaps {
+    integer x00;
+    integer x10;
+    integer x01;
+    integer x11;
+    integer y0;
+    integer y1;
+    real fractionX;
+    real fractionY;
+};
+LatLongTaps latLongTaps(real u, real v, Sampling s) {
+    TexelPair x = texelPair(u * real(s.width) - real(0.5), s.fractionBits);
+    TexelPair y = texelPair(v * real(s.height) - real(0.5), s.fractionBits);
     // Columns repeat.
     int repeats = 1;
     integer x0 = wrapTexel(x.first, s.width, repeats);
@@ -35,13 +43,28 @@ vec3 sampleLatLong(texture env, vec3 direction, Sampling s) {
     integer halfTurn = integer(halfWidth);
     boolean beyondNorth = lessInteger(y.first, integer(0));
     boolean beyondSouth = !lessInteger(y.first + integer(1), integer(s.height));
-    integer y0 = clampInteger(y.first, integer(0), integer(s.height - 1));
-    integer y1 = clampInteger(y.first + integer(1), integer(0), integer(s.height - 1));
+    LatLongTaps taps;
+    taps.y0 = clampInteger(y.first, integer(0), integer(s.height - 1));
+    taps.y1 = clampInteger(y.first + integer(1), integer(0), integer(s.height - 1));
     integer north = selectInteger(beyondNorth, halfTurn, integer(0));
     integer south = selectInteger(beyondSouth, halfTurn, integer(0));
-    vec3 v00 = fetchRgb(env, integer(0), wrapTexel(x0 + north, s.width, repeats), y0);
-    vec3 v10 = fetchRgb(env, integer(0), wrapTexel(x1 + north, s.width, repeats), y0);
-    vec3 v01 = fetchRgb(env, integer(0), wrapTexel(x0 + south, s.width, repeats), y1);
-    vec3 v11 = fetchRgb(env, integer(0), wrapTexel(x1 + south, s.width, repeats), y1);
-    return bilinear3(v00, v10, v01, v11, x.fraction, y.fraction);
+    taps.x00 = wrapTexel(x0 + north, s.width, repeats);
+    taps.x10 = wrapTexel(x1 + north, s.width, repeats);
+    taps.x01 = wrapTexel(x0 + south, s.width, repeats);
+    taps.x11 = wrapTexel(x1 + south, s.width, repeats);
+    taps.fractionX = x.fraction;
+    taps.fractionY = y.fraction;
+    return taps;
+}
+
+vec3 sampleLatLongAt(texture env, LatLongCoordinates c, Sampling s) {
+    integer layer = integer(0);
+    if (s.filterMode == 0) return fetchRgb(env, layer, nearestTexel(c.u, s.width), nearestTexel(c.v, s.height));
+    LatLongTaps taps = latLongTaps(c.u, c.v, s);
+    RgbPair upper = fetchRgbPair(env, layer, taps.x00, taps.y0, layer, taps.x10, taps.y0);
+    RgbPair lower = fetchRgbPair(env, layer, taps.x01, taps.y1, layer, taps.x11, taps.y1);
+    return bilinear3(upper.first, upper.second, lower.first, lower.second, taps.fractionX, taps.fractionY);
+}
+vec3 sampleLatLong(texture env, vec3 direction, Sampling s) {
+    return sampleLatLongAt(env, latLongCoordinates(direction), s);
 }

@@ -126,6 +126,13 @@ struct CubeTaps {
     real fractionX;
     real fractionY;
 };
+CubeTexel cubeTexel(integer face, integer x, integer y) {
+    CubeTexel t;
+    t.face = face;
+    t.x = x;
+    t.y = y;
+    return t;
+}
 CubeTaps cubeTaps(CubeCoordinates c, int size, int fractionBits) {
     TexelPair x = texelPair(c.s * real(size) - real(0.5), fractionBits);
     TexelPair y = texelPair(c.t * real(size) - real(0.5), fractionBits);
@@ -136,6 +143,19 @@ CubeTaps cubeTaps(CubeCoordinates c, int size, int fractionBits) {
     boolean upperOut = lessInteger(y.first, integer(0));
     boolean lowerOut = !lessInteger(y1, integer(size));
     CubeTaps taps;
+    taps.fractionX = x.fraction;
+    taps.fractionY = y.fraction;
+    if (!isAny(leftOut || rightOut || upperOut || lowerOut)) {
+        taps.t00 = cubeTexel(c.face, x.first, y.first);
+        taps.t10 = cubeTexel(c.face, x1, y.first);
+        taps.t01 = cubeTexel(c.face, x.first, y1);
+        taps.t11 = cubeTexel(c.face, x1, y1);
+        taps.corner00 = leftOut;
+        taps.corner10 = leftOut;
+        taps.corner01 = leftOut;
+        taps.corner11 = leftOut;
+        return taps;
+    }
     taps.t00 = wrapCubeTexel(c.face, x.first, y.first, size);
     taps.t10 = wrapCubeTexel(c.face, x1, y.first, size);
     taps.t01 = wrapCubeTexel(c.face, x.first, y1, size);
@@ -144,8 +164,6 @@ CubeTaps cubeTaps(CubeCoordinates c, int size, int fractionBits) {
     taps.corner10 = rightOut && upperOut;
     taps.corner01 = leftOut && lowerOut;
     taps.corner11 = rightOut && lowerOut;
-    taps.fractionX = x.fraction;
-    taps.fractionY = y.fraction;
     return taps;
 }
 
@@ -165,18 +183,29 @@ real sampleCubeReal(texture cube, vec3 direction, Sampling s) {
     return bilinear(c00, c10, c01, c11, taps.fractionX, taps.fractionY);
 }
 
-vec3 sampleCubeRgb(texture cube, vec3 direction, Sampling s) {
-    CubeCoordinates c = cubeCoordinates(direction);
+// At face coordinates.
+vec3 sampleCubeRgbAt(texture cube, CubeCoordinates c, Sampling s) {
     if (s.filterMode == 0)
         return fetchRgb(cube, c.face, nearestTexel(c.s, s.width), nearestTexel(c.t, s.width));
     CubeTaps taps = cubeTaps(c, s.width, s.fractionBits);
-    vec3 v00 = fetchRgb(cube, taps.t00.face, taps.t00.x, taps.t00.y);
-    vec3 v10 = fetchRgb(cube, taps.t10.face, taps.t10.x, taps.t10.y);
-    vec3 v01 = fetchRgb(cube, taps.t01.face, taps.t01.x, taps.t01.y);
-    vec3 v11 = fetchRgb(cube, taps.t11.face, taps.t11.x, taps.t11.y);
-    vec3 c00 = select3(taps.corner00, meanOfThree3(v10, v01, v11), v00);
-    vec3 c10 = select3(taps.corner10, meanOfThree3(v00, v01, v11), v10);
-    vec3 c01 = select3(taps.corner01, meanOfThree3(v00, v10, v11), v01);
-    vec3 c11 = select3(taps.corner11, meanOfThree3(v00, v10, v01), v11);
-    return bilinear3(c00, c10, c01, c11, taps.fractionX, taps.fractionY);
+    RgbPair upper = fetchRgbPair(cube, taps.t00.face, taps.t00.x, taps.t00.y, taps.t10.face, taps.t10.x, taps.t10.y);
+    RgbPair lower = fetchRgbPair(cube, taps.t01.face, taps.t01.x, taps.t01.y, taps.t11.face, taps.t11.x, taps.t11.y);
+    vec3 v00 = upper.first;
+    vec3 v10 = upper.second;
+    vec3 v01 = lower.first;
+    vec3 v11 = lower.second;
+    if (isAny(taps.corner00 || taps.corner10 || taps.corner01 || taps.corner11)) {
+        vec3 c00 = select3(taps.corner00, meanOfThree3(v10, v01, v11), v00);
+        vec3 c10 = select3(taps.corner10, meanOfThree3(v00, v01, v11), v10);
+        vec3 c01 = select3(taps.corner01, meanOfThree3(v00, v10, v11), v01);
+        vec3 c11 = select3(taps.corner11, meanOfThree3(v00, v10, v01), v11);
+        v00 = c00;
+        v10 = c10;
+        v01 = c01;
+        v11 = c11;
+    }
+    return bilinear3(v00, v10, v01, v11, taps.fractionX, taps.fractionY);
+}
+vec3 sampleCubeRgb(texture cube, vec3 direction, Sampling s) {
+    return sampleCubeRgbAt(cube, cubeCoordinates(direction), s);
 }

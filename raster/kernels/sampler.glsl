@@ -124,6 +124,7 @@ vec3 sampleRgb(texture t, integer layer, real u, real v, Sampling s) {
     if (s.filterMode == 0)
         return fetchRgb(t, layer, nearestTexel(foldedU, s.width), nearestTexel(foldedV, s.height));
     ImageTaps p = imageTaps(foldedU, foldedV, s);
-    return bilinear3(fetchRgb(t, layer, p.x0, p.y0), fetchRgb(t, layer, p.x1, p.y0), fetchRgb(t, layer, p.x0, p.y1),
-                     fetchRgb(t, layer, p.x1, p.y1), p.fractionX, p.fractionY);
+    RgbPair upper = fetchRgbPair(t, layer, p.x0, p.y0, layer, p.x1, p.y0);
+    RgbPair lower = fetchRgbPair(t, layer, p.x0, p.y1, layer, p.x1, p.y1);
+    return bilinear3(upper.first, upper.second, lower.first, lower.second, p.fractionX, p.fractionY);
 }

@@ -188,8 +188,6 @@ TEST_CASE("FilteredLightsOfNoisyFramesFlickerLess") {
             for (const TrackedLight& l : filter.add(raw.back())) filtered.back().push_back(l.light);
         }
         const Flicker before = meanFlicker(raw), after = meanFlicker(filtered);
-        MESSAGE(speed_px << ": " << before.angle_rad << " " << before.intensity << " -> " << after.angle_rad
-                         << " " << after.intensity);
         CHECK(after.angle_rad <= 0.5 * before.angle_rad);
         CHECK(after.intensity <= 0.5 * before.intensity);
     }

@@ -6,6 +6,7 @@
 #include <limits>
 #include <set>
 
+#include "numeric/rounded.h"
 #include "numeric/truth.h"
 #include "probes/latlong.h"
 #include "probes/summed_area.h"
@@ -17,7 +18,8 @@ namespace {
 constexpr TexelWeight kWeights[] = {TexelWeight::exact, TexelWeight::midpoint, TexelWeight::edge,
                                     TexelWeight::uniform};
 constexpr LongerSide kSides[] = {LongerSide::angle, LongerSide::arc};
-constexpr LightPlace kPlaces[] = {LightPlace::centre, LightPlace::centroid};
+constexpr LightPlace kPlaces[] = {LightPlace::centre, LightPlace::centroid, LightPlace::median,
+                                  LightPlace::centroidTwice};
 
 Probe constantProbe(int width, int height, float radiance) {
     Probe probe;
@@ -277,6 +279,54 @@ TEST_CASE("LightsLieWhereTheProbeStoresDistances") {
     int located = 0;
     for (const ProbeLight& l : medianCutLights(probe, {7}, 1).lights) located += l.position_m ? 1 : 0;
     CHECK(located == 1);
+}
+
+// Column energies 1, 2, 6 and row weights w, so that centroid and median are known.
+TEST_CASE("LightsLieAtTheirNamedPlaces") {
+    Probe probe = constantProbe(4, 2, 0.0f);
+    for (int y = 0; y < 2; y++)
+        setTexel(probe, 0, y, 1.0f), setTexel(probe, 1, y, 2.0f), setTexel(probe, 3, y, 5.0f);
+    const auto u = [&](LightPlace place) {
+        const glm::dvec3 d = medianCutLights(probe, {0, LongerSide::arc, place}, 1).lights[0].direction;
+        CHECK(std::abs(d.y) <= (place == LightPlace::median ? 0.8 : 1e-15));
+        return 4.0 * (0.5 - std::atan2(d.x, d.z) / (2.0 * M_PI));
+    };
+    CHECK(u(LightPlace::centre) == doctest::Approx(2.0));
+    CHECK(u(LightPlace::centroid) == doctest::Approx((0.5 + 2.0 * 1.5 + 5.0 * 3.5) / 8.0));
+    CHECK(u(LightPlace::centroidTwice) == doctest::Approx((0.5 + 2.0 * 1.5 + 5.0 * 3.5) / 8.0));
+    CHECK(u(LightPlace::median) == doctest::Approx(3.5));
+    // Rows: weights w, of three rows w1 < w2; the lowest row is black.
+    Probe rows = constantProbe(1, 3, 1.0f);
+    setTexel(rows, 0, 2, 0.0f);
+    const std::vector<double> w = texelWeights(1, 3, TexelWeight::exact);
+    const auto v = [&](LightPlace place) {
+        const glm::dvec3 d = medianCutLights(rows, {0, LongerSide::arc, place}, 1).lights[0].direction;
+        return 3.0 * (0.5 - std::asin(d.y) / M_PI);
+    };
+    CHECK(v(LightPlace::centroid) == doctest::Approx((0.5 * w[0] + 1.5 * w[1]) / (w[0] + w[1])));
+    CHECK(v(LightPlace::centroidTwice) ==
+          doctest::Approx((0.5 * w[0] * w[0] + 1.5 * w[1] * w[1]) / (w[0] * w[0] + w[1] * w[1])));
+    CHECK(v(LightPlace::median) == doctest::Approx(1.5));
+}
+
+TEST_CASE("TablesOfAnyArithmeticCanBeCut") {
+    const Probe probe = randomProbe(64, 32, 5);
+    const std::vector<double> weights = texelWeights(64, 32, TexelWeight::exact);
+    Image<double> energy(64, 32);
+    for (int y = 0; y < 32; y++)
+        for (int x = 0; x < 64; x++) {
+            const Image<float>& r = probe.radiance[0];
+            energy.at(x, y) =
+                weights[static_cast<size_t>(y)] * energyOf({r.at(x, y, 0), r.at(x, y, 1), r.at(x, y, 2)});
+        }
+    const auto regions = [&](auto number) {
+        return medianCutRegions(EnergyTable(summedArea<decltype(number)>(energy, 1)), {5});
+    };
+    const auto expected = medianCutLights(probe, {5}, 1).lights;
+    const auto wide = regions(double{});
+    REQUIRE(wide.size() == expected.size());
+    for (size_t i = 0; i < wide.size(); i++) CHECK(wide[i] == expected[i].region);
+    CHECK(regions(Rounded<kBf16>(0.0)) != wide);
 }
 
 TEST_CASE("LightsDependOnNoThreads") {

@@ -1,0 +1,161 @@
+#include "probes/convert.h"
+
+#include <algorithm>
+
+#include "numeric/check.h"
+#include "probes/mapping_passes.h"
+#include "probes/texel_grid.h"
+
+namespace etalon {
+namespace {
+
+template <class Pixel>
+void checkLayers(const std::vector<Image<Pixel>>& layers, const ProbeShape& shape, int channels,
+                 const char* what) {
+    ETALON_CHECK(layers.size() == static_cast<size_t>(shape.layers()), "{} of {} layers, not {}", what,
+                 layers.size(), shape.layers());
+    for (const Image<Pixel>& layer : layers)
+        ETALON_CHECK(
+            layer.width() == shape.width && layer.height() == shape.height && layer.channels() == channels,
+            "{} of {}x{} with {} channels, not {}x{} with {}", what, layer.width(), layer.height(),
+            layer.channels(), shape.width, shape.height, channels);
+}
+
+// Images of the shape; those that fit are kept, with whatever they hold.
+template <class Pixel>
+void fitLayers(std::vector<Image<Pixel>>& layers, const ProbeShape& shape, int channels) {
+    layers.resize(static_cast<size_t>(shape.layers()));
+    for (Image<Pixel>& layer : layers)
+        if (layer.width() != shape.width || layer.height() != shape.height || layer.channels() != channels)
+            layer = Image<Pixel>(shape.width, shape.height, channels);
+}
+
+// 1 for texels with radiance, else 0; empty if all have it.
+std::vector<Image<float>> shownTexels(const Probe& probe) {
+    const bool disc = isDisc(probe.shape.mapping);
+    if (!disc && probe.valid.empty()) return {};
+    std::vector<Image<float>> shown;
+    fitLayers(shown, probe.shape, 1);
+    for (size_t layer = 0; layer < shown.size(); layer++)
+        for (int y = 0; y < probe.shape.height; y++)
+            for (int x = 0; x < probe.shape.width; x++) {
+                const bool isValid = probe.valid.empty() || probe.valid[layer].at(x, y) != 0;
+                shown[layer].at(x, y) = isValid && showsDirection(probe.shape, x, y) ? 1.0f : 0.0f;
+            }
+    return shown;
+}
+
+// The texels of a bilinear sample are at most one texel from it along each axis. Those whose centre is on the
+// disc are shown; the rest is for the rounding of coarse arithmetics.
+double wholeRadius(const ProbeShape& shape) { return std::max(0.0, 1.0 - 4.0 / shape.width); }
+
+bool isIdentity(const glm::dmat3& m) {
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            if (m[i][j] != (i == j ? 1.0 : 0.0)) return false;
+    return true;
+}
+
+// The inverse of `to` times `from`, both rotations.
+glm::dmat3 turnBetween(const glm::dmat3& from, const glm::dmat3& to) {
+    glm::dmat3 m;
+    for (int column = 0; column < 3; column++)
+        for (int row = 0; row < 3; row++) {
+            const glm::dvec3 a = to[row], b = from[column];
+            m[column][row] = a.x * b.x + (a.y * b.y + a.z * b.z);
+        }
+    return m;
+}
+
+}  // namespace
+
+void checkProbe(const Probe& probe) {
+    checkShape(probe.shape);
+    checkLayers(probe.radiance, probe.shape, 3, "radiance");
+    if (!probe.distance_m.empty()) checkLayers(probe.distance_m, probe.shape, 1, "distance");
+    if (!probe.valid.empty()) checkLayers(probe.valid, probe.shape, 1, "validity");
+}
+
+Probe convertProbe(const Probe& source, const ProbeConversion& conversion, FragmentArithmetic arithmetic,
+                   int threads) {
+    Probe result;
+    convertProbe(result, source, conversion, arithmetic, threads);
+    return result;
+}
+
+void convertProbe(Probe& result, const Probe& source, const ProbeConversion& conversion,
+                  FragmentArithmetic arithmetic, int threads) {
+    ETALON_CHECK(&result != &source, "the result is the source");
+    checkProbe(source);
+    checkShape(conversion.shape);
+    ETALON_CHECK(conversion.samplesPerAxis >= 1 && conversion.samplesPerAxis <= kMaxSamplesPerAxis,
+                 "{} samples per axis", conversion.samplesPerAxis);
+    const std::vector<Image<float>> shown = shownTexels(source);
+    ConversionJob job;
+    job.source = source.shape;
+    job.target = conversion.shape;
+    job.radiance = source.radiance;
+    job.shown = shown;
+    job.distance_m = source.distance_m;
+    if (source.valid.empty()) job.wholeRadius = wholeRadius(source.shape);
+    // Equal rotations leave directions as they are, also where a rotation is not quite orthogonal.
+    if (source.rotation != conversion.rotation) job.turn = turnBetween(conversion.rotation, source.rotation);
+    job.isTurned = !isIdentity(job.turn);
+    job.hasBlindSpots = !shown.empty() || isDisc(conversion.shape.mapping);
+    job.resampling = conversion.resampling;
+    job.samplesPerAxis = conversion.samplesPerAxis;
+    job.fractionBits = conversion.fractionBits;
+    job.threads = threads;
+
+    result.shape = conversion.shape;
+    result.rotation = conversion.rotation;
+    result.position_m = source.position_m;
+    fitLayers(result.radiance, conversion.shape, 3);
+    if (source.distance_m.empty())
+        result.distance_m.clear();
+    else
+        fitLayers(result.distance_m, conversion.shape, 1);
+    if (job.hasBlindSpots)
+        fitLayers(result.valid, conversion.shape, 1);
+    else
+        result.valid.clear();
+    mappingPasses(arithmetic).convertImages(job, result);
+
+    const auto isWhole = [](const Image<uint8_t>& layer) {
+        return std::all_of(layer.values().begin(), layer.values().end(), [](uint8_t v) { return v != 0; });
+    };
+    if (std::all_of(result.valid.begin(), result.valid.end(), isWhole)) result.valid.clear();
+}
+
+Probe probeOf(const CubeMap<float>& cube) {
+    Probe probe;
+    probe.shape = {Mapping::cube, cube.size(), cube.size()};
+    probe.radiance.assign(cube.faces.begin(), cube.faces.end());
+    return probe;
+}
+
+Probe probeOf(const Image<float>& image, Mapping mapping) {
+    Probe probe;
+    probe.shape = {mapping, image.width(), image.height()};
+    probe.radiance = {image};
+    return probe;
+}
+
+CubeMap<float> cubeMapOf(Probe probe) {
+    checkProbe(probe);
+    ETALON_CHECK(probe.shape.mapping == Mapping::cube, "mapping {}", static_cast<int>(probe.shape.mapping));
+    CubeMap<float> cube;
+    std::move(probe.radiance.begin(), probe.radiance.end(), cube.faces.begin());
+    return cube;
+}
+
+Image<float> latLongFromCube(const CubeMap<float>& cube, int width, int height,
+                             const LatLongFromCube& options, FragmentArithmetic arithmetic, int threads) {
+    ETALON_CHECK(cube.channels() == 3 && width >= 1 && height >= 1, "{} channels, {}x{}", cube.channels(),
+                 width, height);
+    Image<float> latLong(width, height, 3);
+    mappingPasses(arithmetic).latLongFromCube(cube, options, threads, latLong);
+    return latLong;
+}
+
+}  // namespace etalon
