@@ -33,8 +33,8 @@ class ProbeShTest(CliCase):
         self.assertAlmostEqual(report["coefficients"][0] / (2 * math.sqrt(math.pi)), math.pi, places=6)
 
     def test_layouts_hold_the_same_numbers(self):
-        interleaved = self.expect(0, "probe", "sh", "sun.pfm", "--layout", "interleaved").stdout.split()
-        planar = self.expect(0, "probe", "sh", "sun.pfm", "--layout", "planar").stdout.split()
+        interleaved = self.expect(0, "probe", "sh", "sun.pfm", "--coefficients", "interleaved").stdout.split()
+        planar = self.expect(0, "probe", "sh", "sun.pfm", "--coefficients", "planar").stdout.split()
         self.assertEqual(len(planar), 27)
         self.assertEqual(interleaved, [planar[c * 9 + i] for i in range(9) for c in range(3)])
 

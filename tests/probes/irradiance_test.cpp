@@ -16,7 +16,7 @@ constexpr double kPi = 0x1.921fb54442d18p+1;
 constexpr FragmentArithmetic kDouble = FragmentArithmetic::fp64;
 
 // The midpoint rule of the furnace below, largest relative error over normals.
-constexpr double kFurnaceQuadrature = 2e-3;
+constexpr double kFurnaceQuadrature = 4e-3;
 
 std::vector<glm::dvec3> someNormals() {
     std::vector<glm::dvec3> normals = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};

@@ -43,7 +43,7 @@ inline Probe randomProbe(const ProbeShape& shape, uint64_t seed) {
 
 inline glm::dvec3 randomUnitVector(RandomNumbers& random) {
     for (;;) {
-        const glm::dvec3 d(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+        const glm::dvec3 d{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
         const double square = d.x * d.x + d.y * d.y + d.z * d.z;
         if (square > 1e-2 && square < 1) return d / std::sqrt(square);
     }
