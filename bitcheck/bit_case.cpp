@@ -7,6 +7,7 @@ std::vector<BitCase> bitCases() {
     addNumericCases(cases);
     addRasterCases(cases);
     addImageCases(cases);
+    addMappingCases(cases);
     addShadingCases(cases);
     return cases;
 }

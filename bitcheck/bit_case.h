@@ -26,6 +26,7 @@ std::vector<BitCase> bitCases();
 void addNumericCases(std::vector<BitCase>& cases);
 void addRasterCases(std::vector<BitCase>& cases);
 void addImageCases(std::vector<BitCase>& cases);
+void addMappingCases(std::vector<BitCase>& cases);
 void addShadingCases(std::vector<BitCase>& cases);
 
 }  // namespace etalon
