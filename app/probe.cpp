@@ -7,6 +7,7 @@ void addProbe(CLI::App& app, ExitCode& exitCode) {
     probe->require_subcommand(1);
     addProbeConvert(*probe, exitCode);
     addProbeInfo(*probe, exitCode);
+    addProbeLights(*probe, exitCode);
     addProbeSh(*probe, exitCode);
 }
 

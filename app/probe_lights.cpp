@@ -2,10 +2,10 @@
 #include <bit>
 #include <memory>
 
+#include "app/probe_options.h"
 #include "app/report.h"
 #include "app/scene_options.h"
 #include "app/verbs.h"
-#include "ar/probe_file.h"
 #include "probes/dominant_lights.h"
 #include "probes/median_cut.h"
 
@@ -13,18 +13,13 @@ namespace etalon {
 namespace {
 
 struct ProbeLightsVerb {
-    std::string file, method = "median-cut", cut = "arc", position = "centroid", weights = "exact";
+    ProbeInput input;
+    std::string method = "median-cut", cut = "arc", position = "centroid", weights = "exact";
     uint64_t count = 64;
     int log2Count = 6, threads = 0, maxLights = 8, width = 32;
     double threshold = 0.5;
     bool countIsGiven = false, upperHalf = false, json = false;
 };
-
-// The member of an enumeration whose names are in its order.
-template <class Enum>
-Enum fromName(const std::vector<std::string>& names, const std::string& name) {
-    return static_cast<Enum>(std::find(names.begin(), names.end(), name) - names.begin());
-}
 
 const std::vector<std::string> kMethods = {"median-cut", "dominant"}, kCuts = {"angle", "arc"},
                                kPositions = {"centre", "centroid", "median", "centroid-twice"},
@@ -63,23 +58,24 @@ ExitCode runProbeLights(const ProbeLightsVerb& verb) {
     if (verb.countIsGiven && !std::has_single_bit(verb.count))
         throw InputError(fmt::format("--count {}: not a power of two", verb.count));
     const bool isMedianCut = verb.method == "median-cut";
-    const Probe probe = loadProbe(verb.file);
+    const Probe probe = verb.input.load();
     if (isMedianCut && probe.shape.mapping != Mapping::latLong)
-        throw InputError(fmt::format("{}: a {} probe; median cut needs a lat-long one", verb.file,
+        throw InputError(fmt::format("{}: a {} probe; median cut needs a lat-long one", verb.input.file,
                                      kMappingNames[static_cast<size_t>(probe.shape.mapping)]));
     if (!isMedianCut && probe.shape.mapping == Mapping::cube)
-        throw InputError(fmt::format("{}: a cube map; dominant lights are searched in one image", verb.file));
+        throw InputError(
+            fmt::format("{}: a cube map; dominant lights are searched in one image", verb.input.file));
 
     std::vector<ProbeLight> lights;
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
     std::string text = "# direction (towards the light), energy R G B (W/m^2), solid angle (sr), texels\n";
     if (isMedianCut) {
         const MedianCut cut = {.log2Count = verb.countIsGiven ? std::countr_zero(verb.count) : verb.log2Count,
-                               .side = fromName<LongerSide>(kCuts, verb.cut),
-                               .place = fromName<LightPlace>(kPositions, verb.position),
-                               .weight = fromName<TexelWeight>(kWeights, verb.weights)};
+                               .side = memberOfName<LongerSide>(kCuts, verb.cut),
+                               .place = memberOfName<LightPlace>(kPositions, verb.position),
+                               .weight = memberOfName<TexelWeight>(kWeights, verb.weights)};
         LightsOfProbe found = medianCutLights(probe, cut, verb.threads);
-        warnUncounted(verb.file, found.uncountedValues);
+        warnUncounted(verb.input.file, found.uncountedValues);
         lights = std::move(found.lights);
         for (const ProbeLight& light : lights) {
             list.push_back(jsonOf(light));
@@ -99,7 +95,7 @@ ExitCode runProbeLights(const ProbeLightsVerb& verb) {
     }
     const glm::dvec3 total = totalEnergy(lights);
     if (verb.json) {
-        printOut(jsonText({{"file", verb.file},
+        printOut(jsonText({{"file", verb.input.file},
                            {"method", verb.method},
                            {"width", probe.shape.width},
                            {"height", probe.shape.height},
@@ -118,7 +114,7 @@ void addProbeLights(CLI::App& probe, ExitCode& exitCode) {
     const auto options = std::make_shared<ProbeLightsVerb>();
     CLI::App* verb =
         probe.add_subcommand("lights", "Lights that stand for a probe, by median cut or by brightness.");
-    verb->add_option("FILE", options->file, "Image file of a probe")->required();
+    options->input.addTo(*verb);
     verb->add_option("--method", options->method,
                      "median-cut: lights of about equal energy that add up to the probe; dominant: what is "
                      "brighter than a threshold in a coarse image")

@@ -35,6 +35,7 @@ void addAccept(CLI::App& app, ExitCode& exitCode, const GoldenSupport& support);
 void addProbe(CLI::App& app, ExitCode& exitCode);
 void addProbeConvert(CLI::App& probe, ExitCode& exitCode);
 void addProbeInfo(CLI::App& probe, ExitCode& exitCode);
+void addProbeLights(CLI::App& probe, ExitCode& exitCode);
 void addProbeSh(CLI::App& probe, ExitCode& exitCode);
 void addBits(CLI::App& app, ExitCode& exitCode, const std::vector<BitCase>& cases);
 

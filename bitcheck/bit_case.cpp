@@ -8,6 +8,7 @@ std::vector<BitCase> bitCases() {
     addRasterCases(cases);
     addImageCases(cases);
     addLightCases(cases);
+    addMappingCases(cases);
     addShadingCases(cases);
     addIrradianceCases(cases);
     return cases;

@@ -27,6 +27,7 @@ void addNumericCases(std::vector<BitCase>& cases);
 void addRasterCases(std::vector<BitCase>& cases);
 void addImageCases(std::vector<BitCase>& cases);
 void addLightCases(std::vector<BitCase>& cases);
+void addMappingCases(std::vector<BitCase>& cases);
 void addShadingCases(std::vector<BitCase>& cases);
 void addIrradianceCases(std::vector<BitCase>& cases);
 

@@ -137,7 +137,11 @@ struct TexelFetch {
             const Integer offset = y0 * width + x0;
             if (anyOf(offset + Integer(1.0) != y1 * width + x1 || layer0 != layer1)) return false;
             std::array<const float*, static_cast<size_t>(kCount)> texels;
-            for (int i = 0; i < kCount; i++) texels[static_cast<size_t>(i)] = t.floats(layer0[i]) + offset[i];
+            // Mostly all lanes read one layer.
+            const bool isOneLayer = !anyOf(layer0 != Integer(static_cast<double>(layer0[0])));
+            const float* layer = t.floats(layer0[0]);
+            for (int i = 0; i < kCount; i++)
+                texels[static_cast<size_t>(i)] = (isOneLayer ? layer : t.floats(layer0[i])) + offset[i];
             for (int c = 0; c < 3; c++)
                 loadPairs(texels, static_cast<size_t>(c) * t.planeSize(), first[c], second[c]);
             return true;
