@@ -69,6 +69,16 @@ class Planner {
             add(name, runs, runs ? "output asked for" : "not an output", {"visibility"});
     }
 
+    // Whether the environment lights surfaces, and whether it does so by lights that glosses reflect.
+    bool environmentLights() const {
+        return scene_.environment.kind != EnvironmentKind::none &&
+               scene_.environment.lighting != EnvironmentLighting::none;
+    }
+    bool environmentHasLights() const {
+        return environmentLights() && (scene_.environment.lighting == EnvironmentLighting::lights ||
+                                       scene_.environment.lighting == EnvironmentLighting::dominant);
+    }
+
     // Why a radiance component is zero everywhere, or empty when it may not be.
     std::string whyNothing(ShadeOutput component) const {
         const auto isDiffuse = [](const Material& m) { return hasDiffusePart(m); };
@@ -84,10 +94,10 @@ class Planner {
                 if (!isFinitePositive(scene_.ambient)) return "ambient is 0";
                 return missing(isDiffuse, "diffuse surface");
             case ShadeOutput::diffuse:
-                if (scene_.lights.empty()) return "no lights in the scene";
+                if (scene_.lights.empty() && !environmentLights()) return "no lights in the scene";
                 return missing(isDiffuse, "diffuse surface");
             case ShadeOutput::specular:
-                if (scene_.lights.empty()) return "no lights in the scene";
+                if (scene_.lights.empty() && !environmentHasLights()) return "no lights in the scene";
                 return missing(isGlossy, "blinn_phong surface");
             case ShadeOutput::mirror:
                 return missing(isMirror, "mirror");
@@ -163,14 +173,29 @@ class Planner {
     void planEnvironment() {
         const bool isFile = scene_.environment.kind == EnvironmentKind::file;
         plan_.environmentCube = isFile && mirrorSeesEnvironment();
-        plan_.readEnvironment = isFile && (plan_.environmentCube || runs("background") || anyCube());
+        plan_.environmentLight = environmentLights() && (runs("diffuse") || runs("specular") || anyCube());
+        plan_.readEnvironment =
+            isFile && (plan_.environmentCube || plan_.environmentLight || runs("background") || anyCube());
         if (!isFile) {
             add("environment image", false, "the environment is not an image");
         } else if (plan_.readEnvironment) {
             add("environment image", true,
-                runs("background") ? "the background shows it" : "a mirror reflects it");
+                runs("background")       ? "the background shows it"
+                : plan_.environmentLight ? "it lights surfaces"
+                                         : "a mirror reflects it");
         } else {
-            add("environment image", false, "neither the background nor a mirror shows it");
+            add("environment image", false,
+                "neither the background nor a mirror shows it, and it lights nothing");
+        }
+        if (environmentLights()) {
+            add("environment light", plan_.environmentLight,
+                plan_.environmentLight
+                    ? fmt::format("surfaces are lit by the environment: {}",
+                                  kEnvironmentLightings[static_cast<size_t>(scene_.environment.lighting)])
+                    : "neither diffuse nor specular runs",
+                isFile ? std::vector<std::string>{"environment image"} : std::vector<std::string>{});
+            for (const char* component : {"diffuse", "specular"})
+                if (plan_.environmentLight && runs(component)) addNeed(component, "environment light");
         }
         add("environment cube map", plan_.environmentCube,
             plan_.environmentCube ? "a mirror reflects the environment"

@@ -38,11 +38,12 @@ struct Plan {
     std::vector<PlanPass> passes;
 
     // The same decisions for the renderer.
-    ShadeRequest request;          // what shading makes
-    bool readEnvironment = false;  // the lat-long image
-    bool environmentCube = false;  // its cube map for mirrors
-    std::vector<bool> objectCube;  // for each of planObjects: render its cube map
-    bool lightVertices = false;    // lights are evaluated at vertices
+    ShadeRequest request;           // what shading makes
+    bool readEnvironment = false;   // the lat-long image
+    bool environmentCube = false;   // its cube map for mirrors
+    bool environmentLight = false;  // what it lights surfaces with
+    std::vector<bool> objectCube;   // for each of planObjects: render its cube map
+    bool lightVertices = false;     // lights are evaluated at vertices
     bool depth = false, ids = false, coverage = false, toneMap = false;
     uint64_t memory_bytes = 0;  // of render target and images, at most
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "ar/environment_light.h"
 #include "ar/surface_builder.h"
 #include "lighting/render_view.h"
 #include "raster/depth.h"
@@ -85,9 +86,14 @@ class SceneRenderer {
     }
 
     void makeEnvironment() {
-        if (!result_.plan.readEnvironment) return;
-        progress("environment image");
-        surfaces_.environment.latLong = loadEnvironment(scene_, options_.strict, result_.warnings);
+        if (result_.plan.readEnvironment) {
+            progress("environment image");
+            surfaces_.environment.latLong = loadEnvironment(scene_, options_.strict, result_.warnings);
+        }
+        if (result_.plan.environmentLight) {
+            progress("environment light");
+            addEnvironmentLight(scene_.environment, profile_, options_.raster.threads, surfaces_);
+        }
         if (!result_.plan.environmentCube) return;
         progress("environment cube map");
         environmentCube_.emplace(environmentCube(surfaces_.environment, profile_, options_.raster.threads));

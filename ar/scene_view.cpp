@@ -1,6 +1,9 @@
 // The camera, the environment and the lights of a scene file.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <bit>
+
 #include "ar/scene_parts.h"
 #include "ar/transform.h"
 #include "raster/image.h"
@@ -78,6 +81,27 @@ Intrinsics readIntrinsics(const TableReader& reader, int width, int height) {
     return k;
 }
 
+// How an environment lights surfaces.
+void readLighting(const TableReader& reader, Environment& environment) {
+    if (reader.has("lighting")) {
+        const std::string name = reader.choice("lighting", kEnvironmentLightings);
+        environment.lighting = static_cast<EnvironmentLighting>(
+            std::ranges::find(kEnvironmentLightings, name) - std::begin(kEnvironmentLightings));
+    }
+    if (environment.lighting != EnvironmentLighting::lights)
+        reader.forbid("lights", "needs lighting = \"lights\"");
+    if (environment.lighting != EnvironmentLighting::map &&
+        environment.lighting != EnvironmentLighting::blurred)
+        reader.forbid("map_size", "needs lighting = \"map\" or \"blurred\"");
+    if (reader.has("lights")) {
+        environment.lightCount = static_cast<int>(reader.integer("lights", 1, kMaxEnvironmentLights));
+        if (!std::has_single_bit(static_cast<unsigned>(environment.lightCount)))
+            reader.failKey("lights", fmt::format("must be a power of two, not {}", environment.lightCount));
+    }
+    if (reader.has("map_size"))
+        environment.mapSize = static_cast<int>(reader.integer("map_size", 1, kMaxLightMapSize));
+}
+
 }  // namespace
 
 Camera readCamera(const std::string& file, const TomlValue& value) {
@@ -99,9 +123,12 @@ Camera readCamera(const std::string& file, const TomlValue& value) {
 }
 
 Environment readEnvironment(const std::string& file, const TomlValue& value) {
-    const TableReader reader(file, value, "[environment]", {"file", "intensity", "rotation_deg", "constant"});
+    const TableReader reader(
+        file, value, "[environment]",
+        {"file", "intensity", "rotation_deg", "constant", "lighting", "lights", "map_size"});
     Environment environment;
     environment.line = reader.line();
+    readLighting(reader, environment);
     if (reader.has("file")) {
         reader.forbid("constant", "cannot stand beside 'file'");
         environment.kind = EnvironmentKind::file;
