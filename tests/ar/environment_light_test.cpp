@@ -1,0 +1,105 @@
+#include "ar/environment_light.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "lighting/environment_lighting.h"
+#include "probes/latlong.h"
+
+using namespace etalon;
+
+namespace {
+
+constexpr double kPi = 3.141592653589793;
+
+// The radiance 1 + x / 2 of an environment's own axes, turned by a quarter about +Y: its +X lies at -Z in the
+// world. The irradiance is pi + pi / 3 times the cosine to that axis.
+SurfaceScene sceneUnderSlope(int width) {
+    SurfaceScene scene;
+    scene.environment.latLong = Image<float>(width, width / 2, 3);
+    const LatLongGrid grid(width, width / 2);
+    for (int y = 0; y < width / 2; y++)
+        for (int x = 0; x < width; x++)
+            for (int c = 0; c < 3; c++)
+                scene.environment.latLong.at(x, y, c) =
+                    static_cast<float>((c + 1) * (1 + grid.direction(x, y).x / 2));
+    scene.environment.cosRotation = 0;
+    scene.environment.sinRotation = 1;
+    return scene;
+}
+
+Environment environmentOf(EnvironmentLighting lighting) {
+    Environment environment;
+    environment.kind = EnvironmentKind::file;
+    environment.lighting = lighting;
+    return environment;
+}
+
+glm::dvec3 irradianceOf(const SurfaceScene& scene, const glm::dvec3& n) {
+    EnvironmentLighting<double> lighting(scene.environment.light, {});
+    glm::dvec3 sum = lighting.irradiance(n);
+    for (const SurfaceLight& light : scene.lights) {
+        const double cosine = n.x * light.toLight.x + n.y * light.toLight.y + n.z * light.toLight.z;
+        for (int c = 0; c < 3; c++) sum[c] += std::max(0.0, cosine) * light.irradiance[c];
+    }
+    return sum;
+}
+
+const glm::dvec3 kNormals[] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0},         {0, -1, 0},
+                               {0, 0, 1}, {0, 0, -1}, {0.48, 0.6, 0.64}, {-0.48, -0.6, -0.64}};
+
+}  // namespace
+
+// Bounds: the midpoint rule of 64 x 32 texels and interpolation in a map of 32 texels a face; 256 lights.
+TEST_CASE("EveryLightOfTheEnvironmentGivesTheIrradianceOfASlope") {
+    const std::pair<EnvironmentLighting, double> kBounds[] = {{EnvironmentLighting::harmonics, 1e-3},
+                                                              {EnvironmentLighting::exact, 2e-3},
+                                                              {EnvironmentLighting::map, 4e-3},
+                                                              {EnvironmentLighting::lights, 2e-2}};
+    for (const auto& [lighting, bound] : kBounds) {
+        SurfaceScene scene = sceneUnderSlope(64);
+        Environment environment = environmentOf(lighting);
+        environment.lightCount = 256;
+        addEnvironmentLight(environment, *findProfile("f64"), 1, scene);
+        for (const glm::dvec3& n : kNormals)
+            for (int c = 0; c < 3; c++)
+                CHECK(irradianceOf(scene, n)[c] ==
+                      doctest::Approx((c + 1) * (kPi - kPi / 3 * n.z)).epsilon(bound));
+    }
+}
+
+// The blurred map of [Karlsson2005] is no irradiance: it keeps a constant, and knows which side is brighter.
+TEST_CASE("TheBlurredMapKeepsAConstantAndTheBrightSide") {
+    SurfaceScene white;
+    white.environment.constant = {1, 2, 3};
+    addEnvironmentLight(environmentOf(EnvironmentLighting::blurred), *findProfile("f32"), 1, white);
+    SurfaceScene slope = sceneUnderSlope(64);
+    addEnvironmentLight(environmentOf(EnvironmentLighting::blurred), *findProfile("f32"), 1, slope);
+    for (const glm::dvec3& n : kNormals)
+        for (int c = 0; c < 3; c++)
+            CHECK(irradianceOf(white, n)[c] == doctest::Approx((c + 1) * kPi).epsilon(1e-5));
+    CHECK(irradianceOf(slope, {0, 0, -1}).x > 1.1 * kPi);
+    CHECK(irradianceOf(slope, {0, 0, 1}).x < 0.9 * kPi);
+}
+
+// A sun of one texel in a dark sky is found as one dominant light, with its energy.
+TEST_CASE("TheDominantLightIsTheSun") {
+    SurfaceScene scene;
+    scene.environment.latLong = Image<float>(64, 32, 3);
+    scene.environment.latLong.fill(0.001f);
+    for (int c = 0; c < 3; c++) scene.environment.latLong.at(10, 8, c) = 1000;
+    addEnvironmentLight(environmentOf(EnvironmentLighting::dominant), *findProfile("f64"), 1, scene);
+    REQUIRE(scene.lights.size() == 1);
+    const LatLongGrid grid(64, 32);
+    const glm::dvec3 sun = grid.direction(10, 8), &found = scene.lights[0].toLight;
+    CHECK(sun.x * found.x + sun.y * found.y + sun.z * found.z > 0.99);
+    CHECK(scene.lights[0].irradiance.x == doctest::Approx(1000 * grid.solidAngle_sr(8)).epsilon(0.01));
+}
+
+TEST_CASE("WithoutLightingNothingIsAdded") {
+    SurfaceScene scene = sceneUnderSlope(8);
+    addEnvironmentLight(environmentOf(EnvironmentLighting::none), *findProfile("f64"), 1, scene);
+    CHECK(scene.lights.empty());
+    CHECK(scene.environment.light.kind == EnvironmentLight::Kind::none);
+}
