@@ -134,7 +134,9 @@ ShadowLookupOf<T>::ShadowLookupOf(const ShadowMap& map, int fractionBits, int th
     space_.scale = T(p.scale);
     space_.depthScale = T(p.depthScale);
     space_.depthOffset = T(p.depthOffset);
-    space_.bias = T(settings.depthOffset);
+    space_.bias = T(settings.depthOffset +
+                    (map.holdsDistance() ? settings.bias.constant * kLinearBiasUnit * p.far_m : 0.0));
+    space_.slopeBias = T(map.holdsDistance() ? settings.bias.slopeScale : 0.0);
     space_.normalOffset = T(settings.normalOffset_texels);
     space_.width = T(p.width);
     space_.reach = T(reach);

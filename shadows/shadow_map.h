@@ -43,6 +43,8 @@ enum class ShadowFilter : uint8_t { hard, pcf, disc, soft };
 // as that number turned into an integer of the format first.
 enum class ShadowReference : uint8_t { clamped, quantised };
 
+inline constexpr double kLinearBiasUnit = 0x1p-16;
+
 inline constexpr int kMaxShadowMapSize = 8192;
 inline constexpr int kMaxWindowTaps = 16;         // along an edge (pcf)
 inline constexpr int kMaxDiscTaps = 256;          // disc, soft
@@ -57,7 +59,9 @@ struct ShadowMapSettings {
     int size = 1024;  // texels along an edge of a layer, without the border of cubes
     ShadowDepth depth = ShadowDepth::d24;
     ShadowFaces faces = ShadowFaces::both;
-    DepthBias bias;  // added to what is drawn (rule 7); not for linear
+    // Added to what is drawn (rule 7). linear: subtracted at the look-up instead, in units of kLinearBiasUnit of the far
+    // distance, and in changes of the distance of the point's plane from texel to texel.
+    DepthBias bias;
 
     ShadowFilter filter = ShadowFilter::pcf;
     int taps = 4;              // pcf: along an edge; disc, soft: in all

@@ -21,6 +21,7 @@ struct ShadowSpace {
     real depthScale;
     real depthOffset;
     real bias;          // subtracted from the depth
+    real slopeBias;     // of distances: texels whose change of depth is subtracted
     real normalOffset;  // texels
     real width;         // of a layer, with its border
     real reach;         // so far outside the layer a position may be, in texels
@@ -95,10 +96,10 @@ ShadowPoint shadowPoint(ShadowSpace s, vec3 p, vec3 normal, vec3 face) {
         if (s.holdsDistance == 1) {
             real distance = length3(q);
             real away = select(r.isInFront, distance, real(1.0));
-            r.depth = distance - s.bias;
             real perTexel = m / s.scale;
             r.perU = perTexel * (q.x / away - quotientOrZero(distance * n.x, h));
             r.perV = perTexel * (q.y / away - quotientOrZero(distance * n.y, h));
+            r.depth = (distance - s.bias) - s.slopeBias * maxOf(absOf(r.perU), absOf(r.perV));
         } else {
             r.depth = (s.depthScale - s.depthOffset / m) - s.bias;
             real perTexel = s.depthOffset / s.scale;
