@@ -32,6 +32,8 @@ std::vector<PlanObject> planObjects(const Scene& scene);
 struct VisibilityFacts {
     std::vector<bool> objectVisible;  // for each of planObjects
     bool backgroundVisible = true;
+    // For each light with a shadow map the objects that stand between it and what is looked up (fitShadowMap).
+    std::vector<std::vector<uint32_t>> castersOfLight;
 };
 
 struct Plan {
@@ -43,11 +45,16 @@ struct Plan {
     bool environmentCube = false;  // its cube map for mirrors
     std::vector<bool> objectCube;  // for each of planObjects: render its cube map
     bool lightVertices = false;    // lights are evaluated at vertices
+    std::vector<bool> shadowMap;   // for each light: render and look up its map
     bool depth = false, ids = false, coverage = false, toneMap = false;
     uint64_t memory_bytes = 0;  // of render target and images, at most
 
     const PlanPass* find(std::string_view name) const;
 };
+
+// Which objects are looked up in shadow maps: those whose surface reflects lights and that a pixel, or a cube map, may
+// show.
+std::vector<bool> shadowReceivers(const Scene& scene, const Plan& plan, const std::vector<bool>& objectVisible);
 
 // What is asked for beyond the scene's own outputs.
 struct PlanRequest {

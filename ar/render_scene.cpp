@@ -7,6 +7,7 @@
 #include "lighting/render_view.h"
 #include "raster/depth.h"
 #include "raster/rules.h"
+#include "shadows/shadow_maps.h"
 
 namespace etalon {
 namespace {
@@ -36,13 +37,15 @@ class SceneRenderer {
         visible_.emplace(
             findVisible(surfaces_, placed_, view_, profile_, scene_.render.samples, options_.raster));
         result_.raster = visible_->statistics;
-        const VisibilityFacts facts = visibilityFacts();
+        VisibilityFacts facts = visibilityFacts();
+        fitShadows(facts);
         result_.plan = makePlan(scene_, options_.request, &facts);
     }
 
     RenderResult render() {
         findVisibleObjects();
         makeEnvironment();
+        makeShadows();
         makeCubes();
         shadeView();
         makeFrame();
@@ -84,6 +87,33 @@ class SceneRenderer {
         return facts;
     }
 
+    // What each map has to hold.
+    void fitShadows(VisibilityFacts& facts) {
+        facts.castersOfLight.resize(scene_.lights.size());
+        shadowFits_.resize(scene_.lights.size());
+        const std::vector<bool> receivers = shadowReceivers(scene_, result_.plan, facts.objectVisible);
+        for (size_t l = 0; l < scene_.lights.size(); l++) {
+            if (!result_.plan.shadowMap[l]) continue;
+            shadowFits_[l] =
+                fitShadowMap(placed_, surfaces_.lights[l], receivers, *scene_.lights[l].shadowMap);
+            facts.castersOfLight[l] = shadowFits_[l].casters;
+        }
+    }
+
+    void makeShadows() {
+        for (size_t l = 0; l < scene_.lights.size(); l++) {
+            if (!result_.plan.shadowMap[l]) continue;
+            progress("shadow map");
+            ShadowMapSettings settings = *scene_.lights[l].shadowMap;
+            settings.seed = scene_.render.seed;
+            if (!shadows_) shadows_.emplace(scene_.lights.size());
+            shadows_->set(l,
+                          renderShadowMap(surfaces_, placed_, shadowFits_[l], settings, profile_,
+                                          options_.raster),
+                          profile_, options_.raster.threads);
+        }
+    }
+
     void makeEnvironment() {
         if (!result_.plan.readEnvironment) return;
         progress("environment image");
@@ -105,6 +135,7 @@ class SceneRenderer {
             request.near_m = scene_.camera.near;
             request.far_m = scene_.camera.far;
             request.excluded = i;
+            request.visibility = shadows_ ? &*shadows_ : nullptr;
             cubes_[i].emplace(renderCubeMap(surfaces_, placed_, request,
                                             environmentCube_ ? &*environmentCube_ : nullptr, profile_,
                                             options_.raster));
@@ -117,6 +148,7 @@ class SceneRenderer {
         job.environmentCube = environmentCube_ ? &*environmentCube_ : nullptr;
         for (size_t i = 0; i < cubes_.size(); i++)
             if (cubes_[i]) job.sceneCubes[i] = &cubes_[i]->radiance;
+        job.visibility = shadows_ ? &*shadows_ : nullptr;
         job.request = result_.plan.request;
         std::vector<VertexRadiance> radiance;
         if (result_.plan.lightVertices) {
@@ -208,6 +240,8 @@ class SceneRenderer {
     std::vector<PlacedMesh> placed_;
     std::optional<VisibleScene> visible_;
     std::optional<CubeMap<float>> environmentCube_;
+    std::vector<ShadowFit> shadowFits_;
+    std::optional<ShadowMaps> shadows_;
     std::vector<std::optional<CubeRender>> cubes_;
     ShadedImages shaded_;
 };

@@ -90,6 +90,7 @@ CubeRender renderCubeMap(const SurfaceScene& scene, const std::vector<PlacedMesh
                     only[static_cast<size_t>(face)]);
         ShadeJob job = shadeJobOf(visible, scene, placed, view, profile, options);
         job.environmentCube = environmentCube;
+        job.visibility = request.visibility;
         job.request[ShadeOutput::beauty] = true;
         job.request[ShadeOutput::distance] = true;
         ShadedImages images = shade(job);

@@ -48,6 +48,7 @@ struct CubeRenderRequest {
     int size = 0;          // texels along a face
     double near_m = 0, far_m = 0;
     uint32_t excluded = kNoInstance;  // an instance that the cube map does not show (the one that it is for)
+    const LightVisibility* visibility = nullptr;  // as in ShadeJob
 };
 
 // Renders the six faces around a point in one call. Mirrors seen in them reflect the environment alone.
