@@ -149,13 +149,16 @@ class Planner {
         }
     }
 
-    // A map for each light that asks for one, if something lies in its way.
+    // What each light asks for, if something lies in its way.
     void planShadows() {
         plan_.shadowMap.assign(scene_.lights.size(), false);
+        plan_.shadowVolumes.assign(scene_.lights.size(), false);
         for (size_t l = 0; l < scene_.lights.size(); l++) {
-            if (!scene_.lights[l].shadowMap) continue;
-            const std::string name = fmt::format("shadow map of light{}", l), nothing = whyNoShadow(l);
-            plan_.shadowMap[l] = nothing.empty();
+            const bool isMap = scene_.lights[l].shadowMap.has_value();
+            if (!isMap && !scene_.lights[l].shadowVolumes) continue;
+            const std::string name = fmt::format("shadow {} of light{}", isMap ? "map" : "volumes", l),
+                              nothing = whyNoShadow(l);
+            (isMap ? plan_.shadowMap : plan_.shadowVolumes)[l] = nothing.empty();
             add(name, nothing.empty(), nothing.empty() ? castersText(l) : nothing, {"geometry"});
             if (!nothing.empty()) continue;
             for (const char* component : {"diffuse", "specular"})
@@ -296,8 +299,10 @@ std::vector<PlanObject> planObjects(const Scene& scene) {
     return objects;
 }
 
-std::vector<bool> shadowReceivers(const Scene& scene, const Plan& plan, const std::vector<bool>& objectVisible) {
-    const bool anyCube = std::find(plan.objectCube.begin(), plan.objectCube.end(), true) != plan.objectCube.end();
+std::vector<bool> shadowReceivers(const Scene& scene, const Plan& plan,
+                                  const std::vector<bool>& objectVisible) {
+    const bool anyCube =
+        std::find(plan.objectCube.begin(), plan.objectCube.end(), true) != plan.objectCube.end();
     std::vector<bool> receivers;
     for (const PlanObject& object : planObjects(scene))
         receivers.push_back(hasDiffusePart(*object.material) && (anyCube || objectVisible[receivers.size()]));

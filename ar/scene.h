@@ -131,7 +131,9 @@ struct SceneLight {
     glm::dvec3 position{0.0};
     glm::dvec3 intensity{0.0};
     double inner_deg = 0, outer_deg = 0;
-    std::optional<ShadowMapSettings> shadowMap;  // none: nothing stands in the light's way
+    // With neither, nothing stands in the light's way.
+    std::optional<ShadowMapSettings> shadowMap;
+    bool shadowVolumes = false;
 };
 
 struct Output {

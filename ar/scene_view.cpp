@@ -124,9 +124,14 @@ Environment readEnvironment(const std::string& file, const TomlValue& value) {
 
 namespace {
 
-// The keys that begin with "shadow".
+// How the light's shadows are made.
+std::string readShadowMethod(const TableReader& reader) {
+    constexpr std::string_view kShadows[] = {"none", "map", "volume"};
+    return reader.has("shadow") ? reader.choice("shadow", kShadows) : "none";
+}
+
+// The keys that begin with "shadow_".
 std::optional<ShadowMapSettings> readShadow(const TableReader& reader, LightKind kind) {
-    constexpr std::string_view kShadows[] = {"none", "map"};
     constexpr std::string_view kDepths[] = {"d16", "d24", "d32f", "linear"};
     constexpr std::string_view kFaces[] = {"both", "front", "back"};
     constexpr std::string_view kFilters[] = {"hard", "pcf", "disc", "soft"};
@@ -135,7 +140,7 @@ std::optional<ShadowMapSettings> readShadow(const TableReader& reader, LightKind
         const std::string name = reader.choice(key, names);
         return static_cast<decltype(fallback)>(std::find(names.begin(), names.end(), name) - names.begin());
     };
-    const bool isMap = reader.has("shadow") && reader.choice("shadow", kShadows) == "map";
+    const bool isMap = readShadowMethod(reader) == "map";
     const auto forbid = [&](std::initializer_list<std::string_view> keys, std::string_view reason) {
         for (const std::string_view key : keys) reader.forbid(key, reason);
     };
@@ -190,6 +195,7 @@ SceneLight readLight(const std::string& file, const TomlValue& value) {
          "shadow_light_size_m", "shadow_light_deg"});
     SceneLight light;
     light.line = reader.line();
+    light.shadowVolumes = readShadowMethod(reader) == "volume";
     const std::string kind = reader.choice("kind", kKinds);
     const auto forbid = [&](std::initializer_list<std::string_view> keys) {
         for (const std::string_view key : keys)

@@ -11,6 +11,8 @@
 #include "bench/passes.h"
 #include "numeric/isa.h"
 #include "raster/blur.h"
+#include "shadows/ambient_occlusion.h"
+#include "shadows/volume_shadows.h"
 
 namespace etalon::bench {
 namespace {
@@ -148,6 +150,51 @@ void addShadowedFrame(const std::string& name, const Way& way) {
     });
 }
 
+// Topology, silhouette and the stencil of one light with z-fail; the depths of the view are drawn first. Touches
+// the mesh, and depth, id and stencil of each pixel once for the depths and once for the volumes.
+void addVolumes(const std::string& name, const Way& way) {
+    add("shadow-volumes/" + name, way, [=](benchmark::State& state) {
+        const Workload& w = workload(name, 1);
+        const PlacedWorkload work = place(w, way.profile);
+        const RasterOptions options{.threads = way.threads};
+        const Amount amount{.triangles = static_cast<double>(w.triangles()),
+                            .pixels = pixelsOf(w.view),
+                            .bytes_touched = 2 * (meshBytes(w) + pixelsOf(w.view) * kSample_bytes)};
+        measure(state, amount, [&] {
+            return VolumeShadows(w.scene, work.placed, w.view, *work.profile, {}, options).casts(0);
+        });
+    });
+}
+
+// Pixels count points: the vertices of the mesh, each looked up from half of the directions.
+constexpr int kOcclusionDirections = 64, kOcclusionMapSize = 512, kHemicubePoints = 64, kHemicubeSize = 64;
+void addDirectionalOcclusion(const std::string& name, const Way& way) {
+    add("occlusion-directions64/" + name, way, [=](benchmark::State& state) {
+        const PlacedWorkload work = place(workload(name, 1), way.profile);
+        const auto points = occlusionPointsOf(work.placed[0]);
+        DirectionalOptions options;
+        options.directions = kOcclusionDirections;
+        options.mapSize = kOcclusionMapSize;
+        options.raster.threads = way.threads;
+        const auto count = static_cast<double>(points.size());
+        measure(state, {.pixels = count, .bytes_touched = count * sizeof(OcclusionPoint)},
+                [&] { return directionalOcclusion(work.placed, points, options)[0].open; });
+    });
+}
+void addHemicubeOcclusion(const std::string& name, const Way& way) {
+    add("occlusion-hemicube64/" + name, way, [=](benchmark::State& state) {
+        const PlacedWorkload work = place(workload(name, 1), way.profile);
+        auto points = occlusionPointsOf(work.placed[0]);
+        points.resize(kHemicubePoints);
+        HemicubeOptions options;
+        options.size = kHemicubeSize;
+        options.threads = way.threads;
+        const auto count = static_cast<double>(points.size());
+        measure(state, {.pixels = count, .bytes_touched = count * sizeof(OcclusionPoint)},
+                [&] { return hemicubeOcclusion(work.placed, points, options)[0].open; });
+    });
+}
+
 // Pixels count once per layer; the bytes are those of one layer, as tiles stay in the cache.
 void addFill(const Way& way) {
     add("fill/layers", way, [=](benchmark::State& state) {
@@ -214,6 +261,9 @@ void addAll() {
             addShadowedFrame(name, way);
         }
         addPcf("70k", way);
+        addVolumes("70k", way);
+        addDirectionalOcclusion("70k", way);
+        addHemicubeOcclusion("1k", way);
         addFill(way);
         addCube(way);
         addBlur(way);

@@ -1,5 +1,8 @@
 #include "shadows/volume_shadows.h"
 
+#include <algorithm>
+#include <numeric>
+
 #include "numeric/check.h"
 
 namespace etalon {
@@ -97,41 +100,43 @@ VolumeShadows::VolumeShadows(const SurfaceScene& scene, const std::vector<Placed
                              const View& view, const Profile& profile, const VolumeShadowOptions& options,
                              const RasterOptions& raster)
     : lit_(scene.lights.size()) {
-    ETALON_CHECK(options.lights.empty() || options.lights.size() == scene.lights.size(), "{} of {} lights",
-                 options.lights.size(), scene.lights.size());
-    ETALON_CHECK(options.casters.empty() || options.casters.size() == placed.size(), "{} of {} instances",
-                 options.casters.size(), placed.size());
+    ETALON_CHECK(!options.casters || options.casters->size() == scene.lights.size(), "{} lights of {}",
+                 options.casters ? options.casters->size() : 0, scene.lights.size());
     const View infinite = withInfiniteFar(view);
-    VisibleScene visible = findVisible(scene, placed, infinite, profile, options.samples, raster);
+    VisibleScene visible =
+        findVisible(scene, placed, infinite, profile, options.samples, raster, options.excluded);
     instance_ = visibleInstances(visible);
 
-    std::vector<Caster> casters;
-    for (size_t i = 0; i < placed.size(); i++) {
-        if (!options.casters.empty() && options.casters[i] == 0) continue;
-        Caster& caster = casters.emplace_back();
-        caster.placed = &placed[i];
-        caster.topology = topologyOf(placed[i].positions, placed[i].mesh->indices);
-        toClipSpace(placed[i], infinite, profile.vertex, raster.threads, caster.near);
-        statistics_.openEdges += caster.topology.openEdges;
-        statistics_.crowdedEdges += caster.topology.crowdedEdges;
-        statistics_.discordantEdges += caster.topology.discordantEdges;
-        statistics_.leftOut += caster.topology.leftOut;
-    }
+    std::vector<std::optional<Caster>> prepared(placed.size());
+    const auto casterOf = [&](uint32_t instance) -> const Caster& {
+        std::optional<Caster>& caster = prepared[instance];
+        if (caster) return *caster;
+        const PlacedMesh& mesh = placed[instance];
+        caster.emplace(Caster{&mesh, topologyOf(mesh.positions, mesh.mesh->indices), {}});
+        toClipSpace(mesh, infinite, profile.vertex, raster.threads, caster->near);
+        statistics_.openEdges += caster->topology.openEdges;
+        statistics_.crowdedEdges += caster->topology.crowdedEdges;
+        statistics_.discordantEdges += caster->topology.discordantEdges;
+        statistics_.leftOut += caster->topology.leftOut;
+        return *caster;
+    };
+    std::vector<uint32_t> all(placed.size());
+    std::iota(all.begin(), all.end(), 0u);
 
     for (size_t l = 0; l < scene.lights.size(); l++) {
-        if (!options.lights.empty() && options.lights[l] == 0) continue;
+        const std::vector<uint32_t>& casters = options.casters ? (*options.casters)[l] : all;
         const LightSource light = lightSourceOf(scene.lights[l]);
         std::vector<DrawnVolume> volumes(casters.size());
         std::vector<Draw> draws;
         for (size_t c = 0; c < casters.size(); c++) {
             DrawnVolume& drawn = volumes[c];
-            const PlacedMesh& mesh = *casters[c].placed;
-            drawn.volume = shadowVolumeOf(mesh.positions, mesh.mesh->indices, casters[c].topology, light,
-                                          raster.threads);
+            const Caster& caster = casterOf(casters[c]);
+            drawn.volume = shadowVolumeOf(caster.placed->positions, caster.placed->mesh->indices,
+                                          caster.topology, light, raster.threads);
             if (drawn.volume.empty()) continue;
-            drawn.vertices.assign(casters[c].near.begin(), casters[c].near.end());
-            addFarVertices(casters[c], light, infinite, profile.vertex, raster.threads, drawn.vertices);
-            addDraws(drawn, casters[c], light, options, view.mirrored, draws);
+            drawn.vertices.assign(caster.near.begin(), caster.near.end());
+            addFarVertices(caster, light, infinite, profile.vertex, raster.threads, drawn.vertices);
+            addDraws(drawn, caster, light, options, view.mirrored, draws);
             statistics_.caps += drawn.volume.facing.size() + drawn.volume.away.size();
             statistics_.sides += drawn.volume.sides.size() / 3;
             statistics_.silhouetteEdges += drawn.volume.silhouetteEdges;

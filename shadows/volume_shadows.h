@@ -1,6 +1,7 @@
 // Shadows of a view by shadow volumes: the volumes are counted in the stencil, pixel by pixel.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -20,9 +21,10 @@ enum class VolumeCounting : uint8_t { zFail, zPass };
 
 struct VolumeShadowOptions {
     VolumeCounting counting = VolumeCounting::zFail;
-    std::vector<uint8_t> lights;   // for each light of the scene whether its shadows are made; empty: all
-    std::vector<uint8_t> casters;  // for each instance whether it casts; empty: all
-    int samples = 1;               // of the render target: 1, 4 or 16 per pixel
+    // For each light the instances that cast its shadows, each once; none: it has no shadows. Not given: all.
+    std::optional<std::vector<std::vector<uint32_t>>> casters;
+    uint32_t excluded = kNoInstance;  // an instance that the view does not show; it may cast
+    int samples = 1;                  // of the render target: 1, 4 or 16 per pixel
 };
 
 struct VolumeShadowStatistics {
