@@ -296,8 +296,10 @@ std::vector<PlanObject> planObjects(const Scene& scene) {
     return objects;
 }
 
-std::vector<bool> shadowReceivers(const Scene& scene, const Plan& plan, const std::vector<bool>& objectVisible) {
-    const bool anyCube = std::find(plan.objectCube.begin(), plan.objectCube.end(), true) != plan.objectCube.end();
+std::vector<bool> shadowReceivers(const Scene& scene, const Plan& plan,
+                                  const std::vector<bool>& objectVisible) {
+    const bool anyCube =
+        std::find(plan.objectCube.begin(), plan.objectCube.end(), true) != plan.objectCube.end();
     std::vector<bool> receivers;
     for (const PlanObject& object : planObjects(scene))
         receivers.push_back(hasDiffusePart(*object.material) && (anyCube || objectVisible[receivers.size()]));

@@ -32,7 +32,8 @@ std::vector<PlanObject> planObjects(const Scene& scene);
 struct VisibilityFacts {
     std::vector<bool> objectVisible;  // for each of planObjects
     bool backgroundVisible = true;
-    // For each light with a shadow map the objects that stand between it and what is looked up (fitShadowMap).
+    // For each light with a shadow map the objects that stand between it and what is looked up
+    // (fitShadowMap).
     std::vector<std::vector<uint32_t>> castersOfLight;
 };
 
@@ -52,9 +53,10 @@ struct Plan {
     const PlanPass* find(std::string_view name) const;
 };
 
-// Which objects are looked up in shadow maps: those whose surface reflects lights and that a pixel, or a cube map, may
-// show.
-std::vector<bool> shadowReceivers(const Scene& scene, const Plan& plan, const std::vector<bool>& objectVisible);
+// Which objects are looked up in shadow maps: those whose surface reflects lights and that a pixel, or a cube
+// map, may show.
+std::vector<bool> shadowReceivers(const Scene& scene, const Plan& plan,
+                                  const std::vector<bool>& objectVisible);
 
 // What is asked for beyond the scene's own outputs.
 struct PlanRequest {

@@ -107,10 +107,9 @@ class SceneRenderer {
             ShadowMapSettings settings = *scene_.lights[l].shadowMap;
             settings.seed = scene_.render.seed;
             if (!shadows_) shadows_.emplace(scene_.lights.size());
-            shadows_->set(l,
-                          renderShadowMap(surfaces_, placed_, shadowFits_[l], settings, profile_,
-                                          options_.raster),
-                          profile_, options_.raster.threads);
+            shadows_->set(
+                l, renderShadowMap(surfaces_, placed_, shadowFits_[l], settings, profile_, options_.raster),
+                profile_, options_.raster.threads);
         }
     }
 

@@ -107,11 +107,13 @@ void addShadowMap(const std::string& name, const Way& way) {
                             .pixels = static_cast<double>(texels),
                             .bytes_touched = meshBytes(w) + texels * (kSample_bytes + sizeof(float))};
         const RasterOptions options{.threads = way.threads};
-        measure(state, amount, [&] { return readyForLookUp(work, drawShadowMap(work, options), options).casts(0); });
+        measure(state, amount,
+                [&] { return readyForLookUp(work, drawShadowMap(work, options), options).casts(0); });
     });
 }
 
-// 4 x 4 taps at each visible point. Touches position and two normals of a point (double), its visibility, and a texel.
+// 4 x 4 taps at each visible point. Touches position and two normals of a point (double), its visibility, and
+// a texel.
 void addPcf(const std::string& name, const Way& way) {
     add("pcf/" + name, way, [=](benchmark::State& state) {
         const Workload& w = workload(name, 1);
