@@ -39,7 +39,7 @@ inline constexpr double kMaxLight_deg = 90;
 // (docs/experiments/shadow_bias.md).
 inline ShadowMapSettings defaultShadowMap() {
     ShadowMapSettings map;
-    map.bias = {2, 1, 0};
+    map.bias = {2, 0.5, 0};
     map.receiverPlane = true;
     return map;
 }

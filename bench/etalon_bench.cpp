@@ -109,11 +109,13 @@ void addShadowMap(const std::string& name, const Way& way) {
                             .pixels = static_cast<double>(texels),
                             .bytes_touched = meshBytes(w) + texels * (kSample_bytes + sizeof(float))};
         const RasterOptions options{.threads = way.threads};
-        measure(state, amount, [&] { return readyForLookUp(work, drawShadowMap(work, options), options).casts(0); });
+        measure(state, amount,
+                [&] { return readyForLookUp(work, drawShadowMap(work, options), options).casts(0); });
     });
 }
 
-// 4 x 4 taps at each visible point. Touches position and two normals of a point (double), its visibility, and a texel.
+// 4 x 4 taps at each visible point. Touches position and two normals of a point (double), its visibility, and
+// a texel.
 void addPcf(const std::string& name, const Way& way) {
     add("pcf/" + name, way, [=](benchmark::State& state) {
         const Workload& w = workload(name, 1);
@@ -150,8 +152,8 @@ void addShadowedFrame(const std::string& name, const Way& way) {
     });
 }
 
-// Topology, silhouette and the stencil of one light with z-fail; the depths of the view are drawn first. Touches
-// the mesh, and depth, id and stencil of each pixel once for the depths and once for the volumes.
+// Topology, silhouette and the stencil of one light with z-fail; the depths of the view are drawn first.
+// Touches the mesh, and depth, id and stencil of each pixel once for the depths and once for the volumes.
 void addVolumes(const std::string& name, const Way& way) {
     add("shadow-volumes/" + name, way, [=](benchmark::State& state) {
         const Workload& w = workload(name, 1);

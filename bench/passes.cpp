@@ -60,8 +60,8 @@ ShadowMaps readyForLookUp(const PlacedWorkload& work, ShadowMap map, const Raste
     return maps;
 }
 
-ShadedImages shadeVisible(const PlacedWorkload& work, const VisibleScene& visible, const LightVisibility& shadows,
-                          const RasterOptions& options) {
+ShadedImages shadeVisible(const PlacedWorkload& work, const VisibleScene& visible,
+                          const LightVisibility& shadows, const RasterOptions& options) {
     ShadeJob job =
         shadeJobOf(visible, work.workload->scene, work.placed, work.workload->view, *work.profile, options);
     job.request[ShadeOutput::beauty] = true;

@@ -30,8 +30,8 @@ inline constexpr int kShadowMapSize = 1024;
 ShadowMapSettings shadowSettings();
 ShadowMap drawShadowMap(const PlacedWorkload& work, const RasterOptions& options);
 ShadowMaps readyForLookUp(const PlacedWorkload& work, ShadowMap map, const RasterOptions& options);
-ShadedImages shadeVisible(const PlacedWorkload& work, const VisibleScene& visible, const LightVisibility& shadows,
-                          const RasterOptions& options);
+ShadedImages shadeVisible(const PlacedWorkload& work, const VisibleScene& visible,
+                          const LightVisibility& shadows, const RasterOptions& options);
 // One point per pixel, of the surfaces that are visible.
 LitPoints visiblePoints(const PlacedWorkload& work, const VisibleScene& visible);
 

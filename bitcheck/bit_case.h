@@ -27,6 +27,7 @@ void addNumericCases(std::vector<BitCase>& cases);
 void addRasterCases(std::vector<BitCase>& cases);
 void addImageCases(std::vector<BitCase>& cases);
 void addShadingCases(std::vector<BitCase>& cases);
+void addShadowCases(std::vector<BitCase>& cases);
 void addVolumeCases(std::vector<BitCase>& cases);
 
 }  // namespace etalon

@@ -1,4 +1,5 @@
-// Look-ups in a shadow map over a number type T. Included by the sources that instantiate it, one per number type.
+// Look-ups in a shadow map over a number type T. Included by the sources that instantiate it, one per number
+// type.
 #pragma once
 
 #include <algorithm>
@@ -76,7 +77,8 @@ class ShadowLookupOf final : public ShadowLookup {
         return generateNumber<T>([&](int i) { return static_cast<double>(from[std::min(i, active - 1)]); });
     }
     static vec3 load(const std::array<std::vector<double>, 3>& from, size_t first, int active) {
-        return vec3(load(&from[0][first], active), load(&from[1][first], active), load(&from[2][first], active));
+        return vec3(load(&from[0][first], active), load(&from[1][first], active),
+                    load(&from[2][first], active));
     }
 
     void fillPlane(size_t layer, int threads);
@@ -134,8 +136,8 @@ ShadowLookupOf<T>::ShadowLookupOf(const ShadowMap& map, int fractionBits, int th
     space_.scale = T(p.scale);
     space_.depthScale = T(p.depthScale);
     space_.depthOffset = T(p.depthOffset);
-    space_.bias = T(settings.depthOffset +
-                    (map.holdsDistance() ? settings.bias.constant * kLinearBiasUnit * p.far_m : 0.0));
+    space_.bias = T(settings.depthOffset);
+    space_.nearer = T(1.0 - settings.bias.constant * kLinearBiasUnit);
     space_.slopeBias = T(map.holdsDistance() ? settings.bias.slopeScale : 0.0);
     space_.normalOffset = T(settings.normalOffset_texels);
     space_.width = T(p.width);
@@ -208,7 +210,8 @@ void ShadowLookupOf<T>::fillPlane(size_t layer, int threads) {
 
 template <class T>
 void ShadowLookupOf<T>::find(const LitPoints& points, std::span<double> visibility) const {
-    ETALON_CHECK(visibility.size() == points.size(), "{} values of {} points", visibility.size(), points.size());
+    ETALON_CHECK(visibility.size() == points.size(), "{} values of {} points", visibility.size(),
+                 points.size());
     if (planes_.empty()) {
         std::fill(visibility.begin(), visibility.end(), 1.0);
         return;
@@ -240,14 +243,14 @@ template <class T>
         const typename K::TexelPair y = kernels.windowStart(p.v, windowTaps_, fractionBits_);
         const T centreU = kernels.firstCentre(p.u, x), centreV = kernels.firstCentre(p.v, y);
         const std::array<std::pair<const T*, Stored*>, 9> values = {{{&p.u, places.u.data()},
-                                                                    {&p.v, places.v.data()},
-                                                                    {&p.depth, places.depth.data()},
-                                                                    {&p.perU, places.perU.data()},
-                                                                    {&p.perV, places.perV.data()},
-                                                                    {&x.fraction, places.fractionX.data()},
-                                                                    {&y.fraction, places.fractionY.data()},
-                                                                    {&centreU, places.centreU.data()},
-                                                                    {&centreV, places.centreV.data()}}};
+                                                                     {&p.v, places.v.data()},
+                                                                     {&p.depth, places.depth.data()},
+                                                                     {&p.perU, places.perU.data()},
+                                                                     {&p.perV, places.perV.data()},
+                                                                     {&x.fraction, places.fractionX.data()},
+                                                                     {&y.fraction, places.fractionY.data()},
+                                                                     {&centreU, places.centreU.data()},
+                                                                     {&centreV, places.centreV.data()}}};
         for (const auto& [value, to] : values) TexelFetch<T>::store(*value, to + offset, active);
         const uint32_t inFront = bitsOf(p.isInFront);
         for (int i = 0; i < active; i++) {
@@ -268,7 +271,8 @@ uint32_t ShadowLookupOf<T>::compareQuantised(const T& texels, const T& reference
     RasterKernels<double> kernels;
     uint32_t bits = 0;
     for (int i = 0; i < N; i++)
-        bits |= (numberLane(texels, i) < kernels.unormDepth(numberLane(reference, i), levels_) ? 1u : 0u) << i;
+        bits |= (numberLane(texels, i) < kernels.unormDepth(numberLane(reference, i), levels_) ? 1u : 0u)
+                << i;
     return bits;
 }
 
@@ -299,7 +303,8 @@ void ShadowLookupOf<T>::findWindow(const Places& places, size_t count, std::span
         const auto whole = static_cast<Stored>(taps * taps);
         for (auto& corner : lit) corner[i] = whole;
         if (places.layer[i] == kNoLayer) continue;
-        const T depth(places.depth[i]), perU(places.perU[i]), perV(places.perV[i]), centreU(places.centreU[i]);
+        const T depth(places.depth[i]), perU(places.perU[i]), perV(places.perV[i]),
+            centreU(places.centreU[i]);
         const Stored* row = texel(places.layer[i], places.x[i], places.y[i]);
         int upper[2] = {0, 0}, lower[2] = {0, 0};
         for (int j = 0; j <= taps; j++, row += stride_) {
@@ -354,7 +359,8 @@ void ShadowLookupOf<T>::findDisc(const LitPoints& points, size_t first, const Pl
         const T cosine = turn(false), sine = turn(true);
         std::array<int, kChunk> layers;
         for (int i = 0; i < N; i++)
-            layers[static_cast<size_t>(i)] = places.layer[offset + static_cast<size_t>(std::min(i, active - 1))];
+            layers[static_cast<size_t>(i)] =
+                places.layer[offset + static_cast<size_t>(std::min(i, active - 1))];
         // Calls use(texel, whether it is in the way) for the pattern at a radius.
         const auto forPattern = [&](const T& radius, auto&& use) {
             for (const glm::dvec2& point : pattern_) {
@@ -366,7 +372,8 @@ void ShadowLookupOf<T>::findDisc(const LitPoints& points, size_t first, const Pl
                     kernels.referenceDepth(depth, perU, perV, (x + half) - u, (y + half) - v, farthest_);
                 if (levels_ > 0) {
                     const uint32_t bits = compareQuantised(texels, reference);
-                    const T inTheWay = generateNumber<T>([&](int i) { return (bits >> i & 1) != 0 ? 1.0 : 0.0; });
+                    const T inTheWay =
+                        generateNumber<T>([&](int i) { return (bits >> i & 1) != 0 ? 1.0 : 0.0; });
                     use(texels / T(levels_), inTheWay > T(0.0));
                 } else {
                     use(texels, texels < reference);

@@ -10,13 +10,13 @@
 
 namespace etalon {
 
-// A map whose texels are numbers of the arithmetic (each rounded once), ready for look-ups. The functions may be
-// called from several threads at once.
+// A map whose texels are numbers of the arithmetic (each rounded once), ready for look-ups. The functions may
+// be called from several threads at once.
 class ShadowLookup {
   public:
     virtual ~ShadowLookup() = default;
-    // visibility[i]: the part of the light that reaches point i by the map's filter; 1 outside the map, behind the
-    // light, for positions that are not numbers, and for points of no instance.
+    // visibility[i]: the part of the light that reaches point i by the map's filter; 1 outside the map,
+    // behind the light, for positions that are not numbers, and for points of no instance.
     virtual void find(const LitPoints& points, std::span<double> visibility) const = 0;
 };
 

@@ -32,7 +32,8 @@ class MaskRecorder final : public LightVisibility {
 }  // namespace
 
 Image<float> screenMask(const ShadeJob& job, size_t light) {
-    ETALON_CHECK(job.visibility && job.target && job.target->format.samples == 1, "a mask has one sample per pixel");
+    ETALON_CHECK(job.visibility && job.target && job.target->format.samples == 1,
+                 "a mask has one sample per pixel");
     Image<float> mask(job.target->width(), job.target->height());
     std::fill(mask.values().begin(), mask.values().end(), 1.f);
     const MaskRecorder recorder(*job.visibility, light, mask);

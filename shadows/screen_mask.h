@@ -1,9 +1,10 @@
-// Shadows as a mask in the image [Karlsson2005, sec. 3.2.3]: the shadow map is compared once per pixel, the lit parts
-// are an image, the image is blurred, and its pixels are multiplied with the light.
+// Shadows as a mask in the image [Karlsson2005, sec. 3.2.3]: the shadow map is compared once per pixel, the
+// lit parts are an image, the image is blurred, and its pixels are multiplied with the light.
 //
-// The blur has the same width in pixels everywhere and knows nothing of surfaces: it runs over the outlines of objects,
-// grows on a surface with its distance from the eye, and is narrower where the surface is seen at an angle.
-// Percentage-closer filtering blurs in the map instead: over what the light sees, whatever the eye sees.
+// The blur has the same width in pixels everywhere and knows nothing of surfaces: it runs over the outlines
+// of objects, grows on a surface with its distance from the eye, and is narrower where the surface is seen at
+// an angle. Percentage-closer filtering blurs in the map instead: over what the light sees, whatever the eye
+// sees.
 #pragma once
 
 #include <vector>
@@ -14,8 +15,8 @@
 
 namespace etalon {
 
-// The lit part of each pixel, from job.visibility; 1 where nothing is visible and where the light is not blocked. One
-// sample per pixel.
+// The lit part of each pixel, from job.visibility; 1 where nothing is visible and where the light is not
+// blocked. One sample per pixel.
 Image<float> screenMask(const ShadeJob& job, size_t light);
 
 // Looks masks up by pixel; lights without one reach every point.

@@ -22,8 +22,8 @@ glm::dvec3 cross(const glm::dvec3& a, const glm::dvec3& b) {
 glm::dvec3 scaled(const glm::dvec3& a, double s) { return {a.x * s, a.y * s, a.z * s}; }
 bool isFinite(const glm::dvec3& a) { return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z); }
 
-// Right, down and forward of a light that shines along `forward` (unit); right is perpendicular to +Y, or to +Z where
-// forward is within 26 degrees (cosine 0.9) of the Y axis.
+// Right, down and forward of a light that shines along `forward` (unit); right is perpendicular to +Y, or to
+// +Z where forward is within 26 degrees (cosine 0.9) of the Y axis.
 void setAxes(ShadowProjection& projection, const glm::dvec3& forward) {
     constexpr double kAlongY = 0.9;
     const bool isAlongY = std::fabs(forward.y) > kAlongY;
@@ -157,9 +157,8 @@ bool isBefore(const Plane& plane, const PlacedMesh& receiver, const SurfaceLight
     const double error = light.kind == LightKind::directional ? kFlatness : plane.tolerance_m;
     if (std::fabs(side) <= error) return true;  // seen from its edge
     for (const glm::dvec3& p : receiver.positions) {
-        const double tolerance_m =
-            std::max({plane.tolerance_m, kFlatness * std::fabs(p.x), kFlatness * std::fabs(p.y),
-                      kFlatness * std::fabs(p.z)});
+        const double tolerance_m = std::max({plane.tolerance_m, kFlatness * std::fabs(p.x),
+                                             kFlatness * std::fabs(p.y), kFlatness * std::fabs(p.z)});
         if (plane.above(p) * (side > 0 ? 1 : -1) < -tolerance_m) return false;
     }
     return true;
@@ -183,8 +182,8 @@ void placeTexels(ShadowProjection& projection, const double low[2], const double
     double centre[2];
     if (settings.snap) texel = roundedUp(texel);
     for (int k = 0; k < 2; k++) {
-        const double first = settings.snap ? std::floor(low[k] / texel) * texel
-                                           : (low[k] + high[k]) / 2 - texel * inside / 2;
+        const double first =
+            settings.snap ? std::floor(low[k] / texel) * texel : (low[k] + high[k]) / 2 - texel * inside / 2;
         centre[k] = first + texel * (settings.size / 2 - margin);
     }
     projection.width = settings.size;
@@ -202,8 +201,7 @@ void placeDepths(ShadowProjection& projection, double nearest, double farthest) 
     const double margin = std::max(kDepthMargin * (farthest - nearest), kFlatness * std::fabs(farthest));
     projection.far_m = farthest + std::max(margin, 1e-9);
     if (projection.isPerspective) {
-        projection.near_m = std::max(nearest * (1 - kDepthMargin), projection.far_m * kShadowNearRatio);
-        projection.near_m = std::min(projection.near_m, projection.far_m * (1 - kDepthMargin));
+        projection.near_m = std::max(nearest - margin, projection.far_m * kShadowNearRatio);
         projection.depthScale = projection.far_m / (projection.far_m - projection.near_m);
         projection.depthOffset = projection.near_m * projection.depthScale;
         return;
@@ -224,9 +222,10 @@ bool isInFace(const Box& box, const ShadowProjection& projection, int face) {
     const double slope = projection.width / (2 * projection.scale) * kRounding;
     bool outside[4] = {true, true, true, true};
     for (int corner = 0; corner < 8; corner++) {
-        const glm::dvec3 d = glm::dvec3(corner & 1 ? box.high.x : box.low.x, corner & 2 ? box.high.y : box.low.y,
-                                        corner & 4 ? box.high.z : box.low.z) -
-                             projection.origin;
+        const glm::dvec3 d =
+            glm::dvec3(corner & 1 ? box.high.x : box.low.x, corner & 2 ? box.high.y : box.low.y,
+                       corner & 4 ? box.high.z : box.low.z) -
+            projection.origin;
         const double along = dot(view.forward, d), x = dot(view.perX, d) * projection.scale,
                      y = dot(view.perY, d) * projection.scale;
         const double across[4] = {x, -x, y, -y};
@@ -317,9 +316,8 @@ ShadowFit fitShadowMap(std::span<const PlacedMesh> placed, const SurfaceLight& l
         // A distance is at most sqrt(3) of the depth in its face, and in the border a little more.
         placeDepths(projection, nearest / 2, behind.farthest);
         for (int face = 0; face < kCubeFaces; face++)
-            fit.layerDrawn.push_back(std::any_of(boxes.begin(), boxes.end(), [&](const Box& box) {
-                return isInFace(box, projection, face);
-            }));
+            fit.layerDrawn.push_back(std::any_of(
+                boxes.begin(), boxes.end(), [&](const Box& box) { return isInFace(box, projection, face); }));
         return fit;
     }
 

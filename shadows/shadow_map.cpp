@@ -20,7 +20,8 @@ void checkSettings(const ShadowMapSettings& s) {
     ETALON_CHECK(s.size >= 1 && s.size <= kMaxShadowMapSize, "size {}", s.size);
     const bool isDisc = s.filter == ShadowFilter::disc || s.filter == ShadowFilter::soft;
     ETALON_CHECK(s.taps >= 1 && s.taps <= (isDisc ? kMaxDiscTaps : kMaxWindowTaps), "{} taps", s.taps);
-    ETALON_CHECK(s.radius_texels >= 0 && s.radius_texels <= kMaxShadowRadius_texels, "radius {}", s.radius_texels);
+    ETALON_CHECK(s.radius_texels >= 0 && s.radius_texels <= kMaxShadowRadius_texels, "radius {}",
+                 s.radius_texels);
     ETALON_CHECK(s.lightSize_m >= 0 && s.tangentOfHalfAngle >= 0, "light size {}, tangent {}", s.lightSize_m,
                  s.tangentOfHalfAngle);
 }
@@ -47,7 +48,8 @@ View shadowView(const ShadowProjection& projection, int layer) {
                                  projection.far_m);
         // The same frame over a wider square.
         const double narrower = size / static_cast<double>(projection.width);
-        for (size_t r = 0; r < 2; r++) view.worldToClip[r] = sum(glm::dvec4(0), view.worldToClip[r], narrower);
+        for (size_t r = 0; r < 2; r++)
+            view.worldToClip[r] = sum(glm::dvec4(0), view.worldToClip[r], narrower);
         view.width = view.height = projection.width;
         view.centreX_px = view.centreY_px = projection.width / 2.0;
         return view;
@@ -67,13 +69,15 @@ View shadowView(const ShadowProjection& projection, int layer) {
     view.worldToClip[1] = sum(alongAxis(projection.down, projection.origin, -projection.scale * perTexel), w,
                               1 - projection.centreV * perTexel);
     const glm::dvec4 z = sum(glm::dvec4(0), along, projection.depthScale);
-    view.worldToClip[2] = sum(z, one, projection.isPerspective ? -projection.depthOffset : projection.depthOffset);
+    view.worldToClip[2] =
+        sum(z, one, projection.isPerspective ? -projection.depthOffset : projection.depthOffset);
     view.worldToClip[3] = w;
     return view;
 }
 
-ShadowMap renderShadowMap(const SurfaceScene& scene, const std::vector<PlacedMesh>& placed, const ShadowFit& fit,
-                          const ShadowMapSettings& settings, const Profile& profile, const RasterOptions& options) {
+ShadowMap renderShadowMap(const SurfaceScene& scene, const std::vector<PlacedMesh>& placed,
+                          const ShadowFit& fit, const ShadowMapSettings& settings, const Profile& profile,
+                          const RasterOptions& options) {
     checkSettings(settings);
     ShadowMap map;
     map.settings = settings;
@@ -120,9 +124,10 @@ ShadowMap renderShadowMap(const SurfaceScene& scene, const std::vector<PlacedMes
     return map;
 }
 
-ShadowMap renderShadowMap(const SurfaceScene& scene, const std::vector<PlacedMesh>& placed, const SurfaceLight& light,
-                          const std::vector<bool>& receivers, const ShadowMapSettings& settings,
-                          const Profile& profile, const RasterOptions& options) {
+ShadowMap renderShadowMap(const SurfaceScene& scene, const std::vector<PlacedMesh>& placed,
+                          const SurfaceLight& light, const std::vector<bool>& receivers,
+                          const ShadowMapSettings& settings, const Profile& profile,
+                          const RasterOptions& options) {
     checkSettings(settings);
     return renderShadowMap(scene, placed, fitShadowMap(placed, light, receivers, settings), settings, profile,
                            options);

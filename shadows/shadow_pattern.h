@@ -8,8 +8,8 @@
 
 namespace etalon {
 
-// `count` points of the unit disc, no two of them near each other: each is the one of several random candidates that is
-// farthest from those before it [Mitchell91]. The same for the same count and seed.
+// `count` points of the unit disc, no two of them near each other: each is the one of several random
+// candidates that is farthest from those before it [Mitchell91]. The same for the same count and seed.
 std::vector<glm::dvec2> discPattern(int count, uint64_t seed);
 
 // Cosine and sine of one of kPatternTurns angles, at random for each pixel.

@@ -21,6 +21,7 @@ struct ShadowSpace {
     real depthScale;
     real depthOffset;
     real bias;          // subtracted from the depth
+    real nearer;        // factor of distances
     real slopeBias;     // of distances: texels whose change of depth is subtracted
     real normalOffset;  // texels
     real width;         // of a layer, with its border
@@ -99,7 +100,7 @@ ShadowPoint shadowPoint(ShadowSpace s, vec3 p, vec3 normal, vec3 face) {
             real perTexel = m / s.scale;
             r.perU = perTexel * (q.x / away - quotientOrZero(distance * n.x, h));
             r.perV = perTexel * (q.y / away - quotientOrZero(distance * n.y, h));
-            r.depth = (distance - s.bias) - s.slopeBias * maxOf(absOf(r.perU), absOf(r.perV));
+            r.depth = (distance * s.nearer - s.bias) - s.slopeBias * maxOf(absOf(r.perU), absOf(r.perV));
         } else {
             r.depth = (s.depthScale - s.depthOffset / m) - s.bias;
             real perTexel = s.depthOffset / s.scale;

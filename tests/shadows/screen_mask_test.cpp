@@ -6,6 +6,7 @@
 
 #include "lighting/render_view.h"
 #include "raster/blur.h"
+#include "shadows/shadow_bias.h"
 #include "shadows/shadow_maps.h"
 #include "tests/shadows/shadow_scene.h"
 
@@ -16,7 +17,8 @@ namespace {
 
 constexpr int kWidth = 160, kHeight = 120;
 
-// A ground with a square in the air, seen from the front and above: the square hides a part of the ground.
+// A ground with a square in the air, seen from the front and above: in the image the square hides most of its
+// shadow.
 struct Picture {
     SurfaceScene scene;
     std::vector<PlacedMesh> placed;
@@ -28,7 +30,7 @@ struct Picture {
     Picture() {
         addObject(scene, tile({0, 0, 0}, 6), lambertian(1));
         addObject(scene, rectangle({0, 0.8f, 0}, {0.5f, 0, 0}, {0, 0.3f, -0.3f}), lambertian(1));
-        scene.lights.push_back(sun({0.7, 1, 0}));
+        scene.lights.push_back(sun({0.25, 0.8, 2}));
         placed = placeMeshes(scene, profile.vertex, 1);
         PinholeCamera camera;
         camera.width = kWidth, camera.height = kHeight;
@@ -45,8 +47,11 @@ struct Picture {
         settings.size = 256;
         settings.filter = filter;
         settings.taps = taps;
+        settings.receiverPlane = true;
+        settings.bias = leastBias(settings);
         ShadowMaps maps(1);
-        maps.set(0, renderShadowMap(scene, placed, scene.lights[0], {}, settings, profile, options), profile, 1);
+        maps.set(0, renderShadowMap(scene, placed, scene.lights[0], {}, settings, profile, options), profile,
+                 1);
         return maps;
     }
     ShadeJob job(const LightVisibility& visibility) {
@@ -75,20 +80,22 @@ TEST_CASE("AMaskWithoutBlurIsTheShadowMap") {
     CHECK(*std::min_element(direct.values().begin(), direct.values().end()) == 0);
 }
 
-// The difference: the blurred mask bleeds over the outline of the square, onto what lies in front of and behind it.
-// Percentage-closer filtering leaves the lit square lit and the ground beside its outline as it is.
+// The difference: the blurred mask bleeds over the outline of the square, onto what lies in front of and
+// behind it. Percentage-closer filtering leaves the lit square lit and the ground beside its outline as it
+// is.
 TEST_CASE("ABlurredMaskBleedsOverOutlinesAndFilteringDoesNot") {
     Picture picture;
-    const ShadowMaps hard = picture.maps(ShadowFilter::hard, 1), filtered = picture.maps(ShadowFilter::pcf, 8);
+    const ShadowMaps hard = picture.maps(ShadowFilter::hard, 1),
+                     filtered = picture.maps(ShadowFilter::pcf, 8);
     const Image<float> sharp = screenMask(picture.job(hard), 0);
     const Image<float> mask = blurGaussian(sharp, 6, 2.0, 1);
     const Image<float> pcf = screenMask(picture.job(filtered), 0);
     // On the square, which nothing shadows.
-    int bled = 0, bledFiltered = 0, soft = 0, softFiltered = 0;
+    int wrong = 0, bled = 0, bledFiltered = 0, soft = 0, softFiltered = 0;
     for (int y = 0; y < kHeight; y++)
         for (int x = 0; x < kWidth; x++) {
             const bool isSquare = picture.instanceAt(x, y) == 1;
-            CHECK((!isSquare || sharp.at(x, y) == 1));
+            wrong += isSquare && sharp.at(x, y) != 1 ? 1 : 0;
             if (isSquare) {
                 bled += mask.at(x, y) < 0.99f ? 1 : 0;
                 bledFiltered += pcf.at(x, y) < 0.99f ? 1 : 0;
@@ -98,6 +105,7 @@ TEST_CASE("ABlurredMaskBleedsOverOutlinesAndFilteringDoesNot") {
             }
         }
     MESSAGE("pixels of the square dimmed: ", bled, " by the blurred mask, ", bledFiltered, " by filtering");
+    CHECK(wrong == 0);
     CHECK(bled > 50);
     CHECK(bledFiltered == 0);
     CHECK(soft > 100);

@@ -12,13 +12,15 @@ using namespace etalon::test;
 
 namespace {
 
-constexpr ShadowDepth kDepths[] = {ShadowDepth::d16, ShadowDepth::d24, ShadowDepth::d32f, ShadowDepth::linear};
+constexpr ShadowDepth kDepths[] = {ShadowDepth::d16, ShadowDepth::d24, ShadowDepth::d32f,
+                                   ShadowDepth::linear};
 constexpr double kDegree = 0x1.1df46a2529d39p-6;
 
 // A direction to the light at an angle from +Y, turned about +Y.
 glm::dvec3 toLight(double fromNormal_deg, double turn_deg) {
     const double sine = sinOf(fromNormal_deg * kDegree);
-    return {sine * cosOf(turn_deg * kDegree), cosOf(fromNormal_deg * kDegree), sine * sinOf(turn_deg * kDegree)};
+    return {sine * cosOf(turn_deg * kDegree), cosOf(fromNormal_deg * kDegree),
+            sine * sinOf(turn_deg * kDegree)};
 }
 
 // A ground of 2 m that is drawn into its own map, with something below it.
@@ -48,12 +50,14 @@ ShadowMap mapOfAll(const SurfaceScene& scene, const SurfaceLight& light, const M
 }
 
 int acne(const std::vector<double>& visibility) {
-    return static_cast<int>(std::count_if(visibility.begin(), visibility.end(), [](double v) { return v != 1.0; }));
+    return static_cast<int>(
+        std::count_if(visibility.begin(), visibility.end(), [](double v) { return v != 1.0; }));
 }
 
 }  // namespace
 
-// The promise of shadow_bias.h, at its bounds: lit fraction exactly 1 on a plane that is drawn into its own map.
+// The promise of shadow_bias.h, at its bounds: lit fraction exactly 1 on a plane that is drawn into its own
+// map.
 TEST_CASE("UnoccludedPlanesAreLitExactlyWhereTheBiasPromisesIt") {
     const LitPoints points = gridOn(0, -0.93, 0.93, 37);
     int acneWithoutBias = 0;
@@ -68,7 +72,8 @@ TEST_CASE("UnoccludedPlanesAreLitExactlyWhereTheBiasPromisesIt") {
                         request.settings.depth = depth;
                         request.settings.receiverPlane = isPlane;
                         const SurfaceLight light = sun(toLight(fromNormal_deg, turn_deg));
-                        acneWithoutBias += acne(lookUp(mapOfAll(groundAlone(), light, request), points, profile));
+                        acneWithoutBias +=
+                            acne(lookUp(mapOfAll(groundAlone(), light, request), points, profile));
                         request.settings.bias = leastBias(request.settings);
                         CAPTURE(profile);
                         CAPTURE(static_cast<int>(depth));

@@ -19,7 +19,10 @@ SurfaceScene confetti() {
     addObject(scene, tile({0, 0, 0}, 4), lambertian(0.5));
     for (int j = 0; j < 5; j++)
         for (int i = 0; i < 5; i++)
-            addObject(scene, tile({0.7f * static_cast<float>(i - 2), 0.3f + 0.1f * static_cast<float>(j), 0.7f * static_cast<float>(j - 2)}, 0.3f),
+            addObject(scene,
+                      tile({0.7f * static_cast<float>(i - 2), 0.3f + 0.1f * static_cast<float>(j),
+                            0.7f * static_cast<float>(j - 2)},
+                           0.3f),
                       lambertian(0.5));
     return scene;
 }
@@ -27,7 +30,8 @@ SurfaceScene confetti() {
 // pcf by its definition in double: taps^2 bilinear samples, each of four comparisons.
 double windowByDefinition(const ShadowMap& map, double u, double v, double depth, int taps) {
     const auto isLit = [&](double x, double y) {
-        const int i = static_cast<int>(std::floor(x)), j = static_cast<int>(std::floor(y)), w = map.projection.width;
+        const int i = static_cast<int>(std::floor(x)), j = static_cast<int>(std::floor(y)),
+                  w = map.projection.width;
         if (i < 0 || j < 0 || i >= w || j >= w) return 1.0;
         return depthFromStored(map.format(), map.layers[0].stored.at(i, j)) < depth ? 0.0 : 1.0;
     };
@@ -59,11 +63,13 @@ TEST_CASE("PercentageCloserFilteringComparesFirstAndWeightsAfter") {
         double worst = 0;
         std::set<double> values;
         for (size_t i = 0; i < points.size(); i++) {
-            const glm::dvec3 d = glm::dvec3(points.position_m[0][i], points.position_m[1][i], points.position_m[2][i]) - p.origin;
+            const glm::dvec3 d =
+                glm::dvec3(points.position_m[0][i], points.position_m[1][i], points.position_m[2][i]) -
+                p.origin;
             const auto along = [&](const glm::dvec3& a) { return a.x * d.x + (a.y * d.y + a.z * d.z); };
-            const double expected =
-                windowByDefinition(map, p.centreU + p.scale * along(p.right), p.centreV + p.scale * along(p.down),
-                                   p.depthOffset + p.depthScale * along(p.forward), taps);
+            const double expected = windowByDefinition(map, p.centreU + p.scale * along(p.right),
+                                                       p.centreV + p.scale * along(p.down),
+                                                       p.depthOffset + p.depthScale * along(p.forward), taps);
             worst = std::max(worst, std::fabs(visibility[i] - expected));
             values.insert(visibility[i]);
         }
@@ -92,7 +98,8 @@ TEST_CASE("WeightsHaveTheProfilesFractionBits") {
     }
 }
 
-// As stored integers a reference that is not below the texel is lit; as numbers, one within half a unit may be shadowed.
+// As stored integers a reference that is not below the texel is lit; as numbers, one within half a unit may
+// be shadowed.
 TEST_CASE("QuantisedReferencesCompareAsStoredIntegers") {
     SurfaceScene scene;
     addObject(scene, tile({0, 0, 0}, 4), lambertian(0.5));
@@ -148,12 +155,12 @@ TEST_CASE("PatternsAreTheSameForTheSameSeed") {
     for (const double v : first) CHECK(v * 16 == std::floor(v * 16));
 }
 
-// A window that crosses the edge of a cube face is compared in the plane of its own face: on both sides of the edge the
-// light is the same, and it is that of a map that looks straight at the edge.
+// A window that crosses the edge of a cube face is compared in the plane of its own face: on both sides of
+// the edge the light is the same, and it is that of a map that looks straight at the edge.
 TEST_CASE("FiltersDoNotSeeTheEdgesOfTheCube") {
     SurfaceScene scene;
     addObject(scene, tile({0, 0, 0}, 8), lambertian(0.5));
-    addObject(scene, tile({1, 0.5f, 0.05f}, 0.9f), lambertian(0.5));
+    addObject(scene, tile({0.6f, 0.5f, 0.05f}, 0.9f), lambertian(0.5));
     // The faces +X and -Y meet in the direction (1, -1, 0): on the ground at x = 1 below a light at y = 1.
     for (const ShadowFilter filter : {ShadowFilter::pcf, ShadowFilter::disc})
         for (const ShadowDepth depth : {ShadowDepth::d32f, ShadowDepth::linear}) {
@@ -180,7 +187,7 @@ TEST_CASE("FiltersDoNotSeeTheEdgesOfTheCube") {
             }
             CAPTURE(static_cast<int>(filter));
             CHECK(between > 10);
-            CHECK(most <= (filter == ShadowFilter::pcf ? 0.05 : 0.35));
+            CHECK(most <= (filter == ShadowFilter::pcf ? 0.1 : 0.35));
         }
 }
 
@@ -201,7 +208,7 @@ TEST_CASE("SoftShadowsWidenWithTheDistanceFromTheCaster") {
             request.settings.depth = ShadowDepth::d32f;
             const SurfaceLight light = isSun ? sun({0, 1, 0}) : torch({0, 2, 0}, {0, -1, 0}, 0.5);
             const ShadowMap map = mapOf(scene, light, request);
-            LitPoints points = gridOn(0, -0.6, 0.6, 60);
+            const LitPoints points = gridOn(0, -0.15, 0.15, 60);
             const std::vector<double> visibility = lookUp(map, points);
             // Mean over rows: the width between 10 and 90 % of a disc's edge is 0.69 of its diameter.
             double low = 1, high = -1;
@@ -215,8 +222,8 @@ TEST_CASE("SoftShadowsWidenWithTheDistanceFromTheCaster") {
             const double expected = 0.69 * (isSun ? 2 * 0.05 * height : 0.2 * height / (2 - height));
             CAPTURE(isSun);
             CAPTURE(height);
-            CHECK(high - low > 0.6 * expected - 0.02);
-            CHECK(high - low < 1.4 * expected + 0.02);
+            CHECK(high - low > 0.6 * expected - 0.01);
+            CHECK(high - low < 1.4 * expected + 0.01);
         }
 }
 
@@ -226,7 +233,8 @@ TEST_CASE("ShadowThreadsAndLevelsChangeNoBit") {
     const LitPoints points = gridOn(0, -2, 2, 40);
     const IsaLevel before = activeIsa();
     for (const char* name : {"f32", "r300-fp24"})
-        for (const ShadowFilter filter : {ShadowFilter::hard, ShadowFilter::pcf, ShadowFilter::disc, ShadowFilter::soft})
+        for (const ShadowFilter filter :
+             {ShadowFilter::hard, ShadowFilter::pcf, ShadowFilter::disc, ShadowFilter::soft})
             for (const ShadowDepth depth : {ShadowDepth::d24, ShadowDepth::linear}) {
                 const Profile& profile = *findProfile(name);
                 ShadowMapSettings settings;
@@ -241,8 +249,9 @@ TEST_CASE("ShadowThreadsAndLevelsChangeNoBit") {
                     selectIsa(level);
                     for (const int threads : {1, 3}) {
                         const std::vector<PlacedMesh> placed = placeMeshes(scene, profile.vertex, threads);
-                        const ShadowMap map = renderShadowMap(scene, placed, bulb({0.3, 2, 0.2}), {}, settings, profile,
-                                                              {threads, threads == 1 ? 64 : 16, false});
+                        const ShadowMap map =
+                            renderShadowMap(scene, placed, bulb({0.3, 2, 0.2}), {}, settings, profile,
+                                            {threads, threads == 1 ? 64 : 16, false});
                         std::vector<double> visibility(points.size());
                         lookupPasses(profile.fragment).makeLookup(map, 8, threads)->find(points, visibility);
                         all.push_back(visibility);

@@ -26,7 +26,9 @@ TEST_CASE("ASquareShadowsItsProjection") {
         SurfaceLight light;
         double half_m;
     };
-    const Case cases[] = {{sun({0, 1, 0}), 0.5}, {bulb({0, 3, 0}), 0.75}, {torch({0, 3, 0}, {0, -1, 0}, 0.7), 0.75},
+    const Case cases[] = {{sun({0, 1, 0}), 0.5},
+                          {bulb({0, 3, 0}), 0.75},
+                          {torch({0, 3, 0}, {0, -1, 0}, 0.7), 0.75},
                           {torch({0, 3, 0}, {0, -1, 0}, 0.1), 0.75}};
     for (const Case& c : cases)
         for (const ShadowDepth depth :
@@ -44,9 +46,9 @@ TEST_CASE("ASquareShadowsItsProjection") {
                     const double near_m = filter == ShadowFilter::hard ? 0.1 : 0.45;
                     int inside = 0, outside = 0, wrong = 0;
                     for (size_t i = 0; i < points.size(); i++) {
-                        const double distance = std::max(std::fabs(points.position_m[0][i]),
-                                                         std::fabs(points.position_m[2][i])) -
-                                                c.half_m;
+                        const double distance =
+                            std::max(std::fabs(points.position_m[0][i]), std::fabs(points.position_m[2][i])) -
+                            c.half_m;
                         if (std::fabs(distance) < near_m) continue;
                         (distance < 0 ? inside : outside)++;
                         wrong += visibility[i] != (distance < 0 ? 0.0 : 1.0) ? 1 : 0;

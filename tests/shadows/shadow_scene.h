@@ -6,6 +6,7 @@
 
 #include "lighting/geometry.h"
 #include "lighting/light_visibility.h"
+#include "lighting/render_view.h"
 #include "raster/profile.h"
 #include "shadows/lookup_passes.h"
 #include "shadows/shadow_map.h"
@@ -44,7 +45,8 @@ inline SurfaceMesh tile(glm::vec3 centre, float edge) {
     return rectangle(centre, {edge / 2, 0, 0}, {0, 0, -edge / 2});
 }
 
-// Points of the plane y = height with normal +Y: columns x rows of them over [low, high] in x and z, at cell centres.
+// Points of the plane y = height with normal +Y: columns x rows of them over [low, high] in x and z, at cell
+// centres.
 inline LitPoints gridOn(double height, double low, double high, int count) {
     LitPoints points;
     for (int j = 0; j < count; j++)
@@ -69,19 +71,19 @@ struct MapRequest {
     std::vector<bool> receivers = {};
 };
 
-inline std::vector<double> lookUp(const ShadowMap& map, const LitPoints& points, const char* profileName = "f32") {
+inline std::vector<double> lookUp(const ShadowMap& map, const LitPoints& points,
+                                  const char* profileName = "f32") {
     const Profile& profile = *findProfile(profileName);
     std::vector<double> visibility(points.size());
-    lookupPasses(profile.fragment)
-        .makeLookup(map, profile.textureFractionBits, 1)
-        ->find(points, visibility);
+    lookupPasses(profile.fragment).makeLookup(map, profile.textureFractionBits, 1)->find(points, visibility);
     return visibility;
 }
 
 inline ShadowMap mapOf(const SurfaceScene& scene, const SurfaceLight& light, const MapRequest& request) {
     const Profile& profile = *findProfile(request.profile);
     const std::vector<PlacedMesh> placed = placeMeshes(scene, profile.vertex, 1);
-    return renderShadowMap(scene, placed, light, request.receivers, request.settings, profile, {1, 64, false});
+    return renderShadowMap(scene, placed, light, request.receivers, request.settings, profile,
+                           {1, 64, false});
 }
 
 inline std::vector<double> visibilityOf(const SurfaceScene& scene, const SurfaceLight& light,
