@@ -272,6 +272,12 @@ class Planner {
             bytes += (scene_.lights[l].kind == LightKind::directional ? 1 : kFacesPerCube) * size * size *
                      (kBytesPerSample + 2 * sizeof(double));
         }
+        // The depths of one view at a time, and a mask for each light.
+        const auto volumes =
+            static_cast<uint64_t>(std::count(plan_.shadowVolumes.begin(), plan_.shadowVolumes.end(), true));
+        if (volumes > 0)
+            bytes += pixels * static_cast<uint64_t>(scene_.render.samples) *
+                     (kBytesPerSample + sizeof(uint32_t) + volumes);
         return bytes;
     }
 

@@ -8,8 +8,9 @@
 // Two ways:
 //   - hemicubeOcclusion draws the scene on the five faces of a hemicube around each point [Cohen85]. Texel
 //     centres decide; the weights of texels are exact integrals. For few points, and as the measure of the
-//     other way. A border between open and covered that passes straight through the hemicube costs at most
-//     half the weight of the texels it crosses: 1 / size of a face in the mean (kHemicubeError).
+//     other way. On a knot's vertices 16 texels along the top are off by 0.004 (root mean square), 64 by
+//     0.0004. A border between open and covered that passes straight through the hemicube costs at most half
+//     the weight of the texels it crosses: 1 / size of a face in the mean (kHemicubeError).
 //   - directionalOcclusion draws one depth map of the scene from each of many directions and looks all points
 //     up in each. For vertices and pixels by the thousand. Its error is that of a sum over directions, and of
 //     the texels of the maps, in which a point is looked up at the nearest texel, moved off its surface. The
@@ -17,6 +18,7 @@
 // Points without occluders have open = 1 exactly. The same bits for any number of threads and tile size.
 #pragma once
 
+#include <cmath>
 #include <glm/vec3.hpp>
 #include <limits>
 #include <span>
@@ -82,8 +84,9 @@ struct DirectionalOptions {
 // The i-th of n directions, unit: n bands of equal area, each turned by the golden angle.
 glm::dvec3 spiralDirection(int i, int n);
 
-// Bound on the root mean square error of `open` over the points of a mesh for n directions.
-constexpr double kDirectionalError(int n) { return 4.0 / n; }
+// Bound on the root mean square error of `open` over the vertices of a knot for n directions, 64 to 1024.
+// Measured against hemicubes: 0.036 (64), 0.012 (256), 0.005 (1024), with maps of 256 and of 1024 alike.
+inline double directionalErrorBound(int n) { return 0.3 / std::sqrt(n); }
 
 // With every direction d that n . d > 0 weighted by n . d.
 std::vector<Occlusion> directionalOcclusion(std::span<const PlacedMesh> placed,

@@ -193,6 +193,26 @@ TEST_CASE("ShadowMapsRunForLightsThatNeedThem") {
     CHECK(makePlan(scene, {}).find("shadow map of light0")->reason == "the light is black");
 }
 
+TEST_CASE("ShadowVolumesRunForLightsThatNeedThem") {
+    Scene scene = fullScene();
+    scene.lights.resize(2);
+    for (SceneLight& light : scene.lights) {
+        light.irradiance = glm::dvec3(1);
+        light.shadowVolumes = true;
+    }
+    const uint64_t memory_bytes = makePlan(scene, {}).memory_bytes;
+    VisibilityFacts facts;
+    facts.objectVisible.assign(planObjects(scene).size(), true);
+    facts.castersOfLight = {{}, {2}};
+    const Plan plan = makePlan(scene, {}, &facts);
+    CHECK(plan.shadowVolumes == std::vector<bool>{false, true});
+    CHECK(plan.shadowMap == std::vector<bool>{false, false});
+    CHECK(plan.find("shadow volumes of light1")->reason == "cast by ball");
+    CHECK_FALSE(plan.find("shadow volumes of light0")->runs);
+    CHECK(std::ranges::count(plan.find("diffuse")->needs, "shadow volumes of light1") == 1);
+    CHECK(plan.memory_bytes < memory_bytes);
+}
+
 TEST_CASE("EveryPassHasAReasonAndNeedsPassesOfThePlan") {
     for (const Scene& scene : {bareScene(), fullScene()}) {
         const Plan plan = makePlan(scene, {});

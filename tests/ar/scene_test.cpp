@@ -202,6 +202,9 @@ TEST_CASE("ShadowsAreReadAsWritten") {
     const auto read = [&](const std::string& kind, const std::string& keys) {
         return *folder.load(lightWith(kind, "shadow = 'map'\n" + keys)).lights[1].shadowMap;
     };
+    const SceneLight volume = folder.load(lightWith("point", "shadow = 'volume'\n")).lights[1];
+    CHECK(volume.shadowVolumes);
+    CHECK_FALSE(volume.shadowMap.has_value());
     const ShadowMapSettings plain = read("point", "");
     CHECK(plain.size == 1024);
     CHECK(plain.depth == ShadowDepth::d24);
@@ -234,6 +237,7 @@ TEST_CASE("ShadowsAreReadAsWritten") {
     };
     says(refused("point", "shadow = 'maps'\n"), "did you mean 'map'");
     says(refused("point", "shadow_size = 64\n"), "needs shadow = \"map\"");
+    says(refused("point", "shadow = 'volume'\nshadow_size = 64\n"), "needs shadow = \"map\"");
     says(refused("point", "shadow = 'map'\nshadow_size = 0\n"), "[1, 8192]");
     says(refused("point", "shadow = 'map'\nshadow_receiver_plane = 1\n"), "must be true or false");
     says(refused("point", "shadow = 'map'\nshadow_taps = 17\n"), "[1, 16]");

@@ -194,7 +194,7 @@ TEST_CASE("DirectionalOcclusionIsTheOraclesForTheSameDirections") {
     // 64 directions over each hemisphere, and texels of 1/360 of the knot.
     CHECK(std::sqrt(squares / count) < 0.006);
     CHECK(std::fabs(bias / count) < 0.001);
-    CHECK(std::sqrt(toHemicube / count) < kDirectionalError(options.directions));
+    CHECK(std::sqrt(toHemicube / count) < directionalErrorBound(options.directions));
 }
 
 TEST_CASE("ThreadsChangeNoBitOfOcclusion") {
