@@ -27,6 +27,7 @@ class Planner {
         for (int c = 0; c < kRadianceComponents; c++) planComponent(static_cast<ShadeOutput>(c));
         planVertexLighting();
         planCubes();
+        planShadows();
         planEnvironment();
         planSurfaceImages();
         planBeauty();
@@ -158,6 +159,45 @@ class Planner {
         }
     }
 
+    // What each light asks for, if something lies in its way.
+    void planShadows() {
+        plan_.shadowMap.assign(scene_.lights.size(), false);
+        plan_.shadowVolumes.assign(scene_.lights.size(), false);
+        for (size_t l = 0; l < scene_.lights.size(); l++) {
+            const bool isMap = scene_.lights[l].shadowMap.has_value();
+            if (!isMap && !scene_.lights[l].shadowVolumes) continue;
+            const std::string name = fmt::format("shadow {} of light{}", isMap ? "map" : "volumes", l),
+                              nothing = whyNoShadow(l);
+            (isMap ? plan_.shadowMap : plan_.shadowVolumes)[l] = nothing.empty();
+            add(name, nothing.empty(), nothing.empty() ? castersText(l) : nothing, {"geometry"});
+            if (!nothing.empty()) continue;
+            for (const char* component : {"diffuse", "specular"})
+                if (runs(component)) addNeed(component, name);
+            for (size_t i = 0; i < objects_.size(); i++)
+                if (plan_.objectCube[i]) addNeed("cube map of " + objects_[i].name, name);
+        }
+    }
+    std::string whyNoShadow(size_t light) const {
+        const SceneLight& l = scene_.lights[light];
+        if (!runs("diffuse") && !runs("specular") && !anyCube()) return "neither diffuse nor specular runs";
+        if (scene_.render.perVertex && !anyCube()) return "the scene is lit per vertex";
+        if (!isFinitePositive(l.kind == LightKind::directional ? l.irradiance : l.intensity))
+            return "the light is black";
+        if (facts_ && facts_->castersOfLight[light].empty())
+            return "nothing stands between the light and what is visible";
+        return {};
+    }
+    // The objects that cast, by name; the first few of many.
+    std::string castersText(size_t light) const {
+        constexpr size_t kNamed = 4;
+        if (!facts_) return "objects may stand in the light's way";
+        const std::vector<uint32_t>& casters = facts_->castersOfLight[light];
+        std::string text = "cast by ";
+        for (size_t i = 0; i < std::min(casters.size(), kNamed); i++)
+            text += (i > 0 ? ", " : "") + objects_[casters[i]].name;
+        return casters.size() > kNamed ? fmt::format("{} and {} more", text, casters.size() - kNamed) : text;
+    }
+
     bool anyCube() const {
         return std::find(plan_.objectCube.begin(), plan_.objectCube.end(), true) != plan_.objectCube.end();
     }
@@ -251,6 +291,18 @@ class Planner {
             const auto size = static_cast<uint64_t>(scene_.meshes[objects_[i].index].cubeSize);
             bytes += kFacesPerCube * size * size * 4 * kBytesPerFloat;
         }
+        for (size_t l = 0; l < plan_.shadowMap.size(); l++) {
+            if (!plan_.shadowMap[l]) continue;
+            const auto size = static_cast<uint64_t>(scene_.lights[l].shadowMap->size);
+            bytes += (scene_.lights[l].kind == LightKind::directional ? 1 : kFacesPerCube) * size * size *
+                     (kBytesPerSample + 2 * sizeof(double));
+        }
+        // The depths of one view at a time, and a mask for each light.
+        const auto volumes =
+            static_cast<uint64_t>(std::count(plan_.shadowVolumes.begin(), plan_.shadowVolumes.end(), true));
+        if (volumes > 0)
+            bytes += pixels * static_cast<uint64_t>(scene_.render.samples) *
+                     (kBytesPerSample + sizeof(uint32_t) + volumes);
         return bytes;
     }
 
@@ -276,6 +328,16 @@ std::vector<PlanObject> planObjects(const Scene& scene) {
     for (size_t p = 0; p < scene.planes.size(); p++)
         objects.push_back({scene.planes[p].name, false, p, 0, &scene.materials[scene.planes[p].material]});
     return objects;
+}
+
+std::vector<bool> shadowReceivers(const Scene& scene, const Plan& plan,
+                                  const std::vector<bool>& objectVisible) {
+    const bool anyCube =
+        std::find(plan.objectCube.begin(), plan.objectCube.end(), true) != plan.objectCube.end();
+    std::vector<bool> receivers;
+    for (const PlanObject& object : planObjects(scene))
+        receivers.push_back(hasDiffusePart(*object.material) && (anyCube || objectVisible[receivers.size()]));
+    return receivers;
 }
 
 const PlanPass* Plan::find(std::string_view name) const {

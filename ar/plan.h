@@ -32,23 +32,32 @@ std::vector<PlanObject> planObjects(const Scene& scene);
 struct VisibilityFacts {
     std::vector<bool> objectVisible;  // for each of planObjects
     bool backgroundVisible = true;
+    // For each light with shadows the objects that stand between it and what is looked up (fitShadowMap).
+    std::vector<std::vector<uint32_t>> castersOfLight;
 };
 
 struct Plan {
     std::vector<PlanPass> passes;
 
     // The same decisions for the renderer.
-    ShadeRequest request;           // what shading makes
-    bool readEnvironment = false;   // the lat-long image
-    bool environmentCube = false;   // its cube map for mirrors
-    bool environmentLight = false;  // what it lights surfaces with
-    std::vector<bool> objectCube;   // for each of planObjects: render its cube map
-    bool lightVertices = false;     // lights are evaluated at vertices
+    ShadeRequest request;             // what shading makes
+    bool readEnvironment = false;     // the lat-long image
+    bool environmentCube = false;     // its cube map for mirrors
+    bool environmentLight = false;    // what it lights surfaces with
+    std::vector<bool> objectCube;     // for each of planObjects: render its cube map
+    bool lightVertices = false;       // lights are evaluated at vertices
+    std::vector<bool> shadowMap;      // for each light: render and look up its map
+    std::vector<bool> shadowVolumes;  // for each light: count its volumes, in each view
     bool depth = false, ids = false, coverage = false, toneMap = false;
     uint64_t memory_bytes = 0;  // of render target and images, at most
 
     const PlanPass* find(std::string_view name) const;
 };
+
+// Which objects shadows may fall on: those whose surface reflects lights and that a pixel, or a cube map, may
+// show.
+std::vector<bool> shadowReceivers(const Scene& scene, const Plan& plan,
+                                  const std::vector<bool>& objectVisible);
 
 // What is asked for beyond the scene's own outputs.
 struct PlanRequest {

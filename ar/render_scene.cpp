@@ -8,6 +8,8 @@
 #include "lighting/render_view.h"
 #include "raster/depth.h"
 #include "raster/rules.h"
+#include "shadows/shadow_maps.h"
+#include "shadows/view_shadows.h"
 
 namespace etalon {
 namespace {
@@ -37,13 +39,15 @@ class SceneRenderer {
         visible_.emplace(
             findVisible(surfaces_, placed_, view_, profile_, scene_.render.samples, options_.raster));
         result_.raster = visible_->statistics;
-        const VisibilityFacts facts = visibilityFacts();
+        VisibilityFacts facts = visibilityFacts();
+        fitShadows(facts);
         result_.plan = makePlan(scene_, options_.request, &facts);
     }
 
     RenderResult render() {
         findVisibleObjects();
         makeEnvironment();
+        makeShadows();
         makeCubes();
         shadeView();
         makeFrame();
@@ -85,6 +89,51 @@ class SceneRenderer {
         return facts;
     }
 
+    // What each map has to hold, and what casts volumes.
+    void fitShadows(VisibilityFacts& facts) {
+        facts.castersOfLight.resize(scene_.lights.size());
+        shadowFits_.resize(scene_.lights.size());
+        const std::vector<bool> receivers = shadowReceivers(scene_, result_.plan, facts.objectVisible);
+        for (size_t l = 0; l < scene_.lights.size(); l++) {
+            if (!result_.plan.shadowMap[l] && !result_.plan.shadowVolumes[l]) continue;
+            shadowFits_[l] = fitShadowMap(placed_, surfaces_.lights[l], receivers,
+                                          scene_.lights[l].shadowMap.value_or(defaultShadowMap()));
+            facts.castersOfLight[l] = shadowFits_[l].casters;
+        }
+    }
+
+    void makeShadows() {
+        for (size_t l = 0; l < scene_.lights.size(); l++) {
+            if (!result_.plan.shadowMap[l]) continue;
+            progress("shadow map");
+            ShadowMapSettings settings = *scene_.lights[l].shadowMap;
+            settings.seed = scene_.render.seed;
+            if (!shadows_) shadows_.emplace(scene_.lights.size());
+            shadows_->set(
+                l, renderShadowMap(surfaces_, placed_, shadowFits_[l], settings, profile_, options_.raster),
+                profile_, options_.raster.threads);
+        }
+    }
+
+    // The shadows of a view whose lights cast volumes; null where none does.
+    std::unique_ptr<LightVisibility> volumesOf(const View& view, int samples, uint32_t excluded) const {
+        VolumeShadowOptions options;
+        options.samples = samples;
+        options.excluded = excluded;
+        options.casters.emplace(scene_.lights.size());
+        bool any = false;
+        for (size_t l = 0; l < scene_.lights.size(); l++) {
+            if (!result_.plan.shadowVolumes[l]) continue;
+            (*options.casters)[l] = shadowFits_[l].casters;
+            any = true;
+        }
+        if (!any) return nullptr;
+        progress("shadow volumes");
+        return std::make_unique<ViewShadows>(
+            VolumeShadows(surfaces_, placed_, view, profile_, options, options_.raster),
+            shadows_ ? &*shadows_ : nullptr);
+    }
+
     void makeEnvironment() {
         if (result_.plan.readEnvironment) {
             progress("environment image");
@@ -111,6 +160,8 @@ class SceneRenderer {
             request.near_m = scene_.camera.near;
             request.far_m = scene_.camera.far;
             request.excluded = i;
+            request.visibility = shadows_ ? &*shadows_ : nullptr;
+            request.visibilityOf = [&](const View& face) { return volumesOf(face, 1, i); };
             cubes_[i].emplace(renderCubeMap(surfaces_, placed_, request,
                                             environmentCube_ ? &*environmentCube_ : nullptr, profile_,
                                             options_.raster));
@@ -123,6 +174,8 @@ class SceneRenderer {
         job.environmentCube = environmentCube_ ? &*environmentCube_ : nullptr;
         for (size_t i = 0; i < cubes_.size(); i++)
             if (cubes_[i]) job.sceneCubes[i] = &cubes_[i]->radiance;
+        const std::unique_ptr<LightVisibility> volumes = volumesOf(view_, scene_.render.samples, kNoInstance);
+        job.visibility = volumes ? volumes.get() : shadows_ ? &*shadows_ : nullptr;
         job.request = result_.plan.request;
         std::vector<VertexRadiance> radiance;
         if (result_.plan.lightVertices) {
@@ -214,6 +267,8 @@ class SceneRenderer {
     std::vector<PlacedMesh> placed_;
     std::optional<VisibleScene> visible_;
     std::optional<CubeMap<float>> environmentCube_;
+    std::vector<ShadowFit> shadowFits_;
+    std::optional<ShadowMaps> shadows_;
     std::vector<std::optional<CubeRender>> cubes_;
     ShadedImages shaded_;
 };

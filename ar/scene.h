@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "lighting/surface_scene.h"
+#include "shadows/shadow_map.h"
 
 namespace etalon {
 
@@ -31,6 +32,19 @@ inline constexpr double kMaxExposure = 32;
 inline constexpr double kMaxCone_deg = 89.9, kMinConeStep_deg = 0.01;
 // Largest edge of a reflection cube map, in texels (six faces of float RGB: 4.5 GiB).
 inline constexpr int kMaxCubeSize = 8192;
+
+// Largest angle that a directional light with soft shadows subtends.
+inline constexpr double kMaxLight_deg = 90;
+// What shadow maps of a scene file have where it does not say otherwise: no acne on planes and smooth meshes
+// (docs/experiments/shadow_bias.md).
+inline ShadowMapSettings defaultShadowMap() {
+    ShadowMapSettings map;
+    map.bias = {2, 0.5, 0};
+    map.receiverPlane = true;
+    return map;
+}
+inline constexpr int kDiscTaps = 32;
+inline constexpr double kSoftRadius_texels = 32;
 
 // Names that a scene file may use (docs/scene_format.md says what each means).
 inline constexpr std::array<std::string_view, 11> kOutputNames{"beauty", "depth",      "distance", "normals",
@@ -127,6 +141,9 @@ struct SceneLight {
     glm::dvec3 position{0.0};
     glm::dvec3 intensity{0.0};
     double inner_deg = 0, outer_deg = 0;
+    // With neither, nothing stands in the light's way.
+    std::optional<ShadowMapSettings> shadowMap;
+    bool shadowVolumes = false;
 };
 
 struct Output {

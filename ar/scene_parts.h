@@ -13,6 +13,7 @@ inline constexpr NumberRange kCoordinateRange{-kMaxSceneNumber, kMaxSceneNumber}
 inline constexpr NumberRange kNonNegativeRange{0, kMaxSceneNumber};
 inline constexpr NumberRange kPositiveRange{0, kMaxSceneNumber, true};
 inline constexpr NumberRange kDegreesRange{-1e6, 1e6};
+inline constexpr NumberRange kShadowBiasRange{-1e6, 1e6};
 
 Camera readCamera(const std::string& file, const TomlValue& value);
 Environment readEnvironment(const std::string& file, const TomlValue& value);

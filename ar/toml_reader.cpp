@@ -168,6 +168,13 @@ std::string TableReader::text(std::string_view key) const {
     return v.text;
 }
 
+bool TableReader::boolean(std::string_view key) const {
+    const TomlValue& v = value(key);
+    if (v.kind != TomlKind::boolean)
+        failKey(key, fmt::format("must be true or false, not {}", kindName(v.kind)));
+    return v.boolean;
+}
+
 std::string TableReader::choice(std::string_view key, std::span<const std::string_view> names) const {
     const std::string given = text(key);
     if (std::find(names.begin(), names.end(), given) == names.end())

@@ -51,6 +51,7 @@ class TableReader {
     double number(std::string_view key, NumberRange range) const;
     int64_t integer(std::string_view key, int64_t lo, int64_t hi) const;
     std::string text(std::string_view key) const;
+    bool boolean(std::string_view key) const;
     // One of `names`.
     std::string choice(std::string_view key, std::span<const std::string_view> names) const;
     // Three numbers, each in the range.

@@ -1,5 +1,6 @@
 #include "bench/passes.h"
 
+#include <mutex>
 #include <random>
 
 #include "numeric/check.h"
@@ -38,6 +39,68 @@ ShadedImages shadeVisible(const PlacedWorkload& work, const VisibleScene& visibl
         shadeJobOf(visible, work.workload->scene, work.placed, work.workload->view, *work.profile, options);
     job.request[ShadeOutput::beauty] = true;
     return shade(job);
+}
+
+ShadowMapSettings shadowSettings() {
+    ShadowMapSettings settings;
+    settings.size = kShadowMapSize;
+    settings.bias = {2, 1, 0};
+    settings.receiverPlane = true;
+    return settings;
+}
+
+ShadowMap drawShadowMap(const PlacedWorkload& work, const RasterOptions& options) {
+    const SurfaceScene& scene = work.workload->scene;
+    return renderShadowMap(scene, work.placed, scene.lights[0], {}, shadowSettings(), *work.profile, options);
+}
+
+ShadowMaps readyForLookUp(const PlacedWorkload& work, ShadowMap map, const RasterOptions& options) {
+    ShadowMaps maps(work.workload->scene.lights.size());
+    maps.set(0, std::move(map), *work.profile, options.threads);
+    return maps;
+}
+
+ShadedImages shadeVisible(const PlacedWorkload& work, const VisibleScene& visible,
+                          const LightVisibility& shadows, const RasterOptions& options) {
+    ShadeJob job =
+        shadeJobOf(visible, work.workload->scene, work.placed, work.workload->view, *work.profile, options);
+    job.request[ShadeOutput::beauty] = true;
+    job.visibility = &shadows;
+    return shade(job);
+}
+
+namespace {
+
+// Keeps the points that shading asks about.
+class PointRecorder final : public LightVisibility {
+  public:
+    bool casts(size_t light) const override { return light == 0; }
+    void find(size_t, const LitPoints& points, std::span<double> visibility) const override {
+        std::fill(visibility.begin(), visibility.end(), 1.0);
+        const std::lock_guard lock(mutex_);
+        for (size_t i = 0; i < points.size(); i++) {
+            if (points.instance[i] == kNoInstance) continue;
+            for (size_t k = 0; k < 3; k++) {
+                all.position_m[k].push_back(points.position_m[k][i]);
+                all.normal[k].push_back(points.normal[k][i]);
+                all.faceNormal[k].push_back(points.faceNormal[k][i]);
+            }
+            all.instance.push_back(points.instance[i]);
+            all.x_px.push_back(points.x_px[i]), all.y_px.push_back(points.y_px[i]);
+        }
+    }
+    mutable LitPoints all;
+
+  private:
+    mutable std::mutex mutex_;
+};
+
+}  // namespace
+
+LitPoints visiblePoints(const PlacedWorkload& work, const VisibleScene& visible) {
+    PointRecorder recorder;
+    shadeVisible(work, visible, recorder, {.threads = 1});
+    return std::move(recorder.all);
 }
 
 CubeRenderRequest cubeRequest() {

@@ -4,6 +4,7 @@
 #include "bench/workloads.h"
 #include "lighting/render_view.h"
 #include "probes/convert.h"
+#include "shadows/shadow_maps.h"
 
 namespace etalon::bench {
 
@@ -24,6 +25,16 @@ void drawDepth(VisibleScene& visible, const PlacedWorkload& work, int samples, c
 // The beauty of what is visible: Lambert and Blinn-Phong with all lights of the scene, background black.
 ShadedImages shadeVisible(const PlacedWorkload& work, const VisibleScene& visible,
                           const RasterOptions& options);
+
+// The map of the first light, kShadowMapSize texels along an edge, D24; look-ups of 4 x 4 taps in it.
+inline constexpr int kShadowMapSize = 1024;
+ShadowMapSettings shadowSettings();
+ShadowMap drawShadowMap(const PlacedWorkload& work, const RasterOptions& options);
+ShadowMaps readyForLookUp(const PlacedWorkload& work, ShadowMap map, const RasterOptions& options);
+ShadedImages shadeVisible(const PlacedWorkload& work, const VisibleScene& visible,
+                          const LightVisibility& shadows, const RasterOptions& options);
+// One point per pixel, of the surfaces that are visible.
+LitPoints visiblePoints(const PlacedWorkload& work, const VisibleScene& visible);
 
 // Radiance and distance around the point between the knot's arms, kCubeSize texels along a face.
 inline constexpr int kCubeSize = 512;

@@ -11,6 +11,8 @@ std::vector<BitCase> bitCases() {
     addMappingCases(cases);
     addShadingCases(cases);
     addIrradianceCases(cases);
+    addShadowCases(cases);
+    addVolumeCases(cases);
     return cases;
 }
 

@@ -30,5 +30,7 @@ void addLightCases(std::vector<BitCase>& cases);
 void addMappingCases(std::vector<BitCase>& cases);
 void addShadingCases(std::vector<BitCase>& cases);
 void addIrradianceCases(std::vector<BitCase>& cases);
+void addShadowCases(std::vector<BitCase>& cases);
+void addVolumeCases(std::vector<BitCase>& cases);
 
 }  // namespace etalon

@@ -1,7 +1,7 @@
 # Installation: headers under include/etalon, libraries, and the package files for find_package(etalon).
 include(CMakePackageConfigHelpers)
 
-set(etalon_installed_targets etalon_numeric_flags etalon_numeric etalon_truth etalon_raster etalon_probes etalon_lighting
+set(etalon_installed_targets etalon_numeric_flags etalon_numeric etalon_truth etalon_raster etalon_probes etalon_lighting etalon_shadows
                              etalon_bitcheck)
 set(etalon_installed_folders numeric raster probes lighting bitcheck)
 if(ETALON_APP)

@@ -90,6 +90,9 @@ CubeRender renderCubeMap(const SurfaceScene& scene, const std::vector<PlacedMesh
                     only[static_cast<size_t>(face)]);
         ShadeJob job = shadeJobOf(visible, scene, placed, view, profile, options);
         job.environmentCube = environmentCube;
+        const std::unique_ptr<LightVisibility> ofFace =
+            request.visibilityOf ? request.visibilityOf(view) : nullptr;
+        job.visibility = ofFace ? ofFace.get() : request.visibility;
         job.request[ShadeOutput::beauty] = true;
         job.request[ShadeOutput::distance] = true;
         ShadedImages images = shade(job);

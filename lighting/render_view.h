@@ -1,7 +1,9 @@
 // Views of a surface scene: visibility, then shading; one view, or the six of a cube map.
 #pragma once
 
+#include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <span>
 
@@ -48,6 +50,9 @@ struct CubeRenderRequest {
     int size = 0;          // texels along a face
     double near_m = 0, far_m = 0;
     uint32_t excluded = kNoInstance;  // an instance that the cube map does not show (the one that it is for)
+    const LightVisibility* visibility = nullptr;  // as in ShadeJob
+    // Where it depends on the view: that of each face, instead.
+    std::function<std::unique_ptr<LightVisibility>(const View&)> visibilityOf;
 };
 
 // Renders the six faces around a point in one call. Mirrors seen in them reflect the environment alone.

@@ -1,5 +1,7 @@
 #include "lighting/view.h"
 
+#include <cmath>
+
 #include "numeric/check.h"
 
 namespace etalon {
@@ -20,7 +22,7 @@ glm::dvec3 scaled(const glm::dvec3& a, double s) { return glm::dvec3(a.x * s, a.
 
 // z / w is 0 at the near and 1 at the far plane: z = (w - near) far / (far - near).
 glm::dvec4 depthRow(const glm::dvec4& wRow, double near_m, double far_m) {
-    const double scale = far_m / (far_m - near_m);
+    const double scale = std::isinf(far_m) ? 1.0 : far_m / (far_m - near_m);
     glm::dvec4 row = combine(scale, wRow, 0, wRow);
     row.w = row.w - scale * near_m;
     return row;
@@ -52,7 +54,15 @@ View cameraView(const PinholeCamera& camera) {
     view.forward = scaled(camera.backward, -1.0);
     view.perX = scaled(camera.right, 1.0 / camera.fx);
     view.perY = scaled(camera.up, -1.0 / camera.fy);
+    view.near_m = camera.near_m;
     return view;
+}
+
+View withInfiniteFar(const View& view) {
+    ETALON_CHECK(view.near_m > 0, "near {}", view.near_m);
+    View infinite = view;
+    infinite.worldToClip[2] = depthRow(view.worldToClip[3], view.near_m, HUGE_VAL);
+    return infinite;
 }
 
 View cubeFaceView(CubeFace face, int size, const glm::dvec3& eye, double near_m, double far_m) {
@@ -81,6 +91,7 @@ View cubeFaceView(CubeFace face, int size, const glm::dvec3& eye, double near_m,
     view.perX = scaled(axes.s, 2.0 / size);
     view.perY = scaled(axes.t, 2.0 / size);
     view.mirrored = true;
+    view.near_m = near_m;
     return view;
 }
 

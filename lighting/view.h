@@ -18,10 +18,11 @@ struct View {
     double centreX_px = 0, centreY_px = 0;
     glm::dvec3 forward{0, 0, -1}, perX{0}, perY{0};
     bool mirrored = false;  // counter-clockwise faces appear clockwise (cube faces)
+    double near_m = 0;      // the near plane's distance; 0: not a perspective view
 };
 
 // A pinhole camera. fx, fy, cx, cy in pixels (pixel centres at +0.5, row 0 on top); axes: the camera's right,
-// up and backward direction in world space, orthonormal; 0 < near < far in metres.
+// up and backward direction in world space, orthonormal; 0 < near < far in metres, far may be infinite.
 struct PinholeCamera {
     int width = 0, height = 0;
     double fx = 0, fy = 0, cx = 0, cy = 0;
@@ -30,6 +31,10 @@ struct PinholeCamera {
 };
 
 View cameraView(const PinholeCamera& camera);
+
+// The same perspective view with its far plane at infinity: z / w = 1 - near / distance, points at infinity
+// have z = w to the bit, and no finite point has z > w.
+View withInfiniteFar(const View& view);
 
 // One face of a cube map of size x size texels seen from `eye`, by the GL/Vulkan face table.
 View cubeFaceView(CubeFace face, int size, const glm::dvec3& eye, double near_m, double far_m);

@@ -162,6 +162,57 @@ TEST_CASE("APngNeedsTheBeautyWhateverTheOutputsAre") {
     CHECK(plan.find("tone mapping")->runs);
 }
 
+TEST_CASE("ShadowMapsRunForLightsThatNeedThem") {
+    Scene scene = fullScene();
+    scene.lights.resize(3);
+    for (SceneLight& light : scene.lights) light.irradiance = glm::dvec3(1);
+    scene.lights[0].shadowMap.emplace();
+    scene.lights[2].shadowMap.emplace();
+    // Without geometry anything may cast.
+    const Plan first = makePlan(scene, {});
+    CHECK(first.shadowMap == std::vector<bool>{true, false, true});
+    CHECK(first.find("shadow map of light1") == nullptr);
+    const PlanPass& diffuse = *first.find("diffuse");
+    CHECK(std::ranges::count(diffuse.needs, "shadow map of light0") == 1);
+    // With it, what casts is named.
+    VisibilityFacts facts;
+    facts.objectVisible.assign(planObjects(scene).size(), true);
+    facts.castersOfLight = {{0, 2}, {}, {}};
+    const Plan plan = makePlan(scene, {}, &facts);
+    CHECK(plan.shadowMap == std::vector<bool>{true, false, false});
+    CHECK(plan.find("shadow map of light0")->reason == "cast by thing, ball");
+    CHECK(plan.find("shadow map of light2")->reason ==
+          "nothing stands between the light and what is visible");
+    CHECK(plan.memory_bytes > makePlan(fullScene(), {}).memory_bytes);
+    // Mirrors and the background have no shadows.
+    PlanRequest request;
+    request.outputs = {"normals"};
+    CHECK(makePlan(scene, request).find("shadow map of light0")->reason ==
+          "neither diffuse nor specular runs");
+    scene.lights[0].irradiance = glm::dvec3(0);
+    CHECK(makePlan(scene, {}).find("shadow map of light0")->reason == "the light is black");
+}
+
+TEST_CASE("ShadowVolumesRunForLightsThatNeedThem") {
+    Scene scene = fullScene();
+    scene.lights.resize(2);
+    for (SceneLight& light : scene.lights) {
+        light.irradiance = glm::dvec3(1);
+        light.shadowVolumes = true;
+    }
+    const uint64_t memory_bytes = makePlan(scene, {}).memory_bytes;
+    VisibilityFacts facts;
+    facts.objectVisible.assign(planObjects(scene).size(), true);
+    facts.castersOfLight = {{}, {2}};
+    const Plan plan = makePlan(scene, {}, &facts);
+    CHECK(plan.shadowVolumes == std::vector<bool>{false, true});
+    CHECK(plan.shadowMap == std::vector<bool>{false, false});
+    CHECK(plan.find("shadow volumes of light1")->reason == "cast by ball");
+    CHECK_FALSE(plan.find("shadow volumes of light0")->runs);
+    CHECK(std::ranges::count(plan.find("diffuse")->needs, "shadow volumes of light1") == 1);
+    CHECK(plan.memory_bytes < memory_bytes);
+}
+
 TEST_CASE("EveryPassHasAReasonAndNeedsPassesOfThePlan") {
     for (const Scene& scene : {bareScene(), fullScene()}) {
         const Plan plan = makePlan(scene, {});

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <fstream>
 
 #include "ar/compare.h"
@@ -59,6 +60,35 @@ TEST_CASE("AnEffectThatNoOutputNeedsChangesNoBit") {
     const Plan planAfter = planScene(scene, {});
     for (size_t i = 0; i < planBefore.passes.size(); i++)
         CHECK(planAfter.passes[i].runs == planBefore.passes[i].runs);
+}
+
+// Of one light's shadows, in the view and in the mirror ball's cube map.
+TEST_CASE("ShadowVolumesAreWhereTheMapsAre") {
+    for (size_t light = 0; light < 3; light++) {
+        Scene scene = loadScene("golden/scenes/shadows.toml");
+        scene.camera.width /= 2, scene.camera.height /= 2;
+        scene.lights = {scene.lights[light]};
+        scene.lights[0].shadowMap = defaultShadowMap();
+        scene.lights[0].shadowMap->size = 512;
+        scene.output.images = {"diffuse", "mirror"};
+        const Frame map = frameOf(scene);
+        scene.lights[0].shadowMap.reset();
+        const Frame none = frameOf(scene);
+        scene.lights[0].shadowVolumes = true;
+        const Frame volume = frameOf(scene);
+        for (size_t c = 0; c < volume.channels.size(); c++) {
+            double toMap = 0, toNone = 0;
+            for (size_t i = 0; i < std::get<Image<float>>(volume.channels[c].values).pixelCount(); i++) {
+                const auto at = [&](const Frame& frame) {
+                    return static_cast<double>(std::get<Image<float>>(frame.channels[c].values).values()[i]);
+                };
+                toMap += std::fabs(at(volume) - at(map));
+                toNone += std::fabs(at(volume) - at(none));
+            }
+            CHECK(toNone > 0);
+            CHECK(toMap < 0.25 * toNone);
+        }
+    }
 }
 
 TEST_CASE("AskingForMoreOutputsChangesNoBitOfTheOthers") {

@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -187,6 +188,67 @@ TEST_CASE("PlacedLightsAreReadAsWritten") {
     CHECK(refused("outer_deg = 90\n").find("'outer_deg'") != std::string::npos);
     CHECK(refused("inner_deg = 20\nouter_deg = 20\n").find("must be at least 0.01 below 'outer_deg'") !=
           std::string::npos);
+}
+
+TEST_CASE("ShadowsAreReadAsWritten") {
+    const SceneFolder folder;
+    const auto lightWith = [&](const std::string& kind, const std::string& keys) {
+        const std::string light = kind == "directional" ? "direction = [0, -1, 0]\nirradiance = [1, 1, 1]\n"
+                                                        : "position = [1, 2, 3]\nintensity = [4, 5, 6]\n";
+        return sceneText() + "[[light]]\nkind = '" + kind + "'\n" + light + keys;
+    };
+    CHECK_FALSE(folder.load(lightWith("point", "")).lights[1].shadowMap.has_value());
+    CHECK_FALSE(folder.load(lightWith("point", "shadow = 'none'\n")).lights[1].shadowMap.has_value());
+    const auto read = [&](const std::string& kind, const std::string& keys) {
+        return *folder.load(lightWith(kind, "shadow = 'map'\n" + keys)).lights[1].shadowMap;
+    };
+    const SceneLight volume = folder.load(lightWith("point", "shadow = 'volume'\n")).lights[1];
+    CHECK(volume.shadowVolumes);
+    CHECK_FALSE(volume.shadowMap.has_value());
+    const ShadowMapSettings plain = read("point", "");
+    CHECK(plain.size == 1024);
+    CHECK(plain.depth == ShadowDepth::d24);
+    CHECK(plain.filter == ShadowFilter::pcf);
+    CHECK(plain.taps == 4);
+    CHECK(plain.receiverPlane);
+    const ShadowMapSettings soft = read(
+        "point",
+        "shadow_size = 64\nshadow_depth = 'linear'\nshadow_faces = 'back'\nshadow_bias = 3\n"
+        "shadow_slope_bias = 1.5\nshadow_receiver_plane = false\nshadow_filter = 'soft'\nshadow_taps = 48\n"
+        "shadow_radius_texels = 8\nshadow_light_size_m = 0.25\n");
+    CHECK(soft.size == 64);
+    CHECK(soft.depth == ShadowDepth::linear);
+    CHECK(soft.faces == ShadowFaces::back);
+    CHECK(soft.bias.constant == 3);
+    CHECK(soft.bias.slopeScale == 1.5);
+    CHECK_FALSE(soft.receiverPlane);
+    CHECK(soft.filter == ShadowFilter::soft);
+    CHECK(soft.taps == 48);
+    CHECK(soft.radius_texels == 8);
+    CHECK(soft.lightSize_m == 0.25);
+    const ShadowMapSettings sun = read("directional", "shadow_filter = 'soft'\nshadow_light_deg = 90\n");
+    CHECK(sun.tangentOfHalfAngle == doctest::Approx(std::sqrt(2.0) - 1));
+
+    const auto refused = [&](const std::string& kind, const std::string& keys) {
+        return errorOf(folder, lightWith(kind, keys));
+    };
+    const auto says = [](const std::string& error, const char* text) {
+        CHECK_MESSAGE(error.find(text) != std::string::npos, error);
+    };
+    says(refused("point", "shadow = 'maps'\n"), "did you mean 'map'");
+    says(refused("point", "shadow_size = 64\n"), "needs shadow = \"map\"");
+    says(refused("point", "shadow = 'volume'\nshadow_size = 64\n"), "needs shadow = \"map\"");
+    says(refused("point", "shadow = 'map'\nshadow_size = 0\n"), "[1, 8192]");
+    says(refused("point", "shadow = 'map'\nshadow_receiver_plane = 1\n"), "must be true or false");
+    says(refused("point", "shadow = 'map'\nshadow_taps = 17\n"), "[1, 16]");
+    says(refused("point", "shadow = 'map'\nshadow_filter = 'hard'\nshadow_taps = 4\n"), "not used by");
+    says(refused("point", "shadow = 'map'\nshadow_radius_texels = 4\n"), "needs shadow_filter");
+    says(refused("point", "shadow = 'map'\nshadow_filter = 'soft'\n"), "missing key 'shadow_light_size_m'");
+    says(refused("point", "shadow = 'map'\nshadow_filter = 'soft'\nshadow_light_deg = 1\n"),
+         "used by kind 'directional' alone");
+    says(refused("directional", "shadow = 'map'\nshadow_filter = 'soft'\nshadow_light_size_m = 1\n"),
+         "not used by kind 'directional'");
+    says(refused("point", "shadow = 'map'\nshadow_light_size_m = 1\n"), "needs shadow_filter = \"soft\"");
 }
 
 TEST_CASE("InstancesAreAppliedAfterTheMeshsOwnTransform") {

@@ -74,3 +74,27 @@ TEST_CASE("CubeFaceRaysAreTheDirectionsOfTheFaceTable") {
         }
     }
 }
+
+TEST_CASE("InfiniteFarPlanePutsPointsAtInfinityAtDepthOne") {
+    RandomNumbers random(6);
+    PinholeCamera camera;
+    camera.width = camera.height = 100;
+    camera.fx = camera.fy = 100;
+    camera.cx = camera.cy = 50;
+    camera.position = {3, -2, 1};
+    camera.near_m = 0.25;
+    const View finite = cameraView(camera), view = withInfiniteFar(finite);
+    camera.far_m = HUGE_VAL;
+    CHECK(cameraView(camera).worldToClip[2] == view.worldToClip[2]);
+    for (int i = 0; i < 100; i++) {
+        const glm::dvec3 p(random.uniform(-9, 9), random.uniform(-9, 9), random.uniform(-1e9, 0.7));
+        const double w = row(view.worldToClip[3], p), z = row(view.worldToClip[2], p);
+        CHECK(z <= w);
+        CHECK(z == doctest::Approx(w - 0.25).epsilon(kTolerance));
+        CHECK(row(finite.worldToClip[3], p) == w);
+        // A direction.
+        glm::dvec4 zRow = view.worldToClip[2], wRow = view.worldToClip[3];
+        zRow.w = wRow.w = 0;
+        CHECK(row(zRow, p) == row(wRow, p));
+    }
+}

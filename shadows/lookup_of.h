@@ -1,0 +1,414 @@
+// Look-ups in a shadow map over a number type T. Included by the sources that instantiate it, one per number
+// type.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+
+#include "lighting/render_view.h"
+#include "numeric/elementary.h"
+#include "numeric/number_lanes.h"
+#include "numeric/parallel.h"
+#include "raster/depth.h"
+#include "raster/texture.h"
+#include "shadows/lookup_passes.h"
+#include "shadows/shadow_pattern.h"
+
+namespace etalon {
+
+template <class T>
+struct ShadowKernels {
+#include "numeric/kernel_scope.inc"
+#include "raster/texture_scope.inc"
+#include "numeric/kernels/vector.glsl"
+#include "raster/kernels/sampler.glsl"
+#include "raster/kernels/cube_face.glsl"
+#include "shadows/kernels/shadow_point.glsl"
+#include "shadows/kernels/shadow_filter.glsl"
+};
+
+template <class T>
+class ShadowLookupOf final : public ShadowLookup {
+  public:
+    ShadowLookupOf(const ShadowMap& map, int fractionBits, int threads);
+    void find(const LitPoints& points, std::span<double> visibility) const override;
+
+  private:
+    using K = ShadowKernels<T>;
+    using vec3 = typename K::vec3;
+    using integer = typename K::integer;
+    using boolean = typename K::boolean;
+    using Stored = TexelStorage<T>;
+    static constexpr int N = NumberTraits<T>::lanes;
+    static constexpr size_t kChunk = 256;  // points at a time
+    static constexpr int kNoLayer = -1;
+
+    // A layer's texels with `pad` texels of the farthest depth around them.
+    struct Plane {
+        std::vector<Stored> texels;
+        bool isDrawn() const { return !texels.empty(); }
+    };
+    // Where the points of a chunk fall.
+    struct Places {
+        std::array<int, kChunk> layer, x, y;  // x, y: pcf's first texel
+        std::array<Stored, kChunk> u, v, depth, perU, perV, fractionX, fractionY, centreU, centreV;
+    };
+
+    static vec3 constant(const glm::dvec3& v) { return vec3(T(v.x), T(v.y), T(v.z)); }
+    static int integerLane(const integer& a, int i) {
+        if constexpr (N == 1)
+            return a;
+        else
+            return a[i];
+    }
+    static uint32_t bitsOf(const boolean& c) {
+        if constexpr (std::is_same_v<boolean, bool>)
+            return c ? 1 : 0;
+        else
+            return laneBits(c);
+    }
+    // Numbers of points first, first + 1 ...; behind the last one it repeats.
+    template <class S>
+    static T load(const S* from, int active) {
+        if constexpr (N > 1 && std::is_same_v<T, Lanes<float, N>> && std::is_same_v<S, double>)
+            if (active == N) return convertLanes<float>(Lanes<double, N>::load(from));
+        if (active == N) return TexelFetch<T>::contiguous(from);
+        return generateNumber<T>([&](int i) { return static_cast<double>(from[std::min(i, active - 1)]); });
+    }
+    static vec3 load(const std::array<std::vector<double>, 3>& from, size_t first, int active) {
+        return vec3(load(&from[0][first], active), load(&from[1][first], active),
+                    load(&from[2][first], active));
+    }
+
+    void fillPlane(size_t layer, int threads);
+    const Stored* texel(int layer, int x, int y) const {
+        return planes_[static_cast<size_t>(layer)].texels.data() +
+               static_cast<ptrdiff_t>(y + pad_) * stride_ + (x + pad_);
+    }
+    void place(const LitPoints& points, size_t first, size_t count, Places& places) const;
+    uint32_t shadowedInRow(const Stored* row, const T& depth, const T& perU, const T& perV, const T& centreU,
+                           const T& dv) const;
+    uint32_t compareQuantised(const T& texels, const T& reference) const;
+    void findWindow(const Places& places, size_t count, std::span<double> visibility) const;
+    void findDisc(const LitPoints& points, size_t first, const Places& places, size_t count,
+                  std::span<double> visibility) const;
+    T fetch(const std::array<int, kChunk>& layers, size_t first, const integer& x, const integer& y) const;
+
+    const ShadowMap& map_;
+    int fractionBits_ = 0, windowTaps_ = 0;
+    int pad_ = 0;
+    ptrdiff_t stride_ = 0;
+    double levels_ = 0;  // quantised: the texels are integers up to this
+    T farthest_{};
+    typename K::ShadowSpace space_;
+    std::vector<Plane> planes_;
+    std::vector<glm::dvec2> pattern_;
+    PatternTurns turns_;
+    double blurScale_ = 0, nearest_ = 0;
+};
+
+template <class T>
+ShadowLookupOf<T>::ShadowLookupOf(const ShadowMap& map, int fractionBits, int threads)
+    : map_(map), turns_(map.settings.seed) {
+    const ShadowMapSettings& settings = map.settings;
+    const ShadowProjection& p = map.projection;
+    const bool isHard = settings.filter == ShadowFilter::hard;
+    windowTaps_ = isHard ? 1 : settings.taps;
+    fractionBits_ = isHard ? 0 : fractionBits;
+    if (settings.reference == ShadowReference::quantised && !map.holdsDistance())
+        levels_ = depthLevels(map.format());
+    constexpr double kBeyondEveryDistance = 0x1p+60;
+    farthest_ = T(map.holdsDistance() ? kBeyondEveryDistance : 1.0);
+
+    const int reach = filterReach_texels(settings);
+    space_.isPerspective = p.isPerspective ? 1 : 0;
+    space_.isCube = p.isCube ? 1 : 0;
+    space_.holdsDistance = map.holdsDistance() ? 1 : 0;
+    space_.receiverPlane = settings.receiverPlane ? 1 : 0;
+    space_.movesAlongNormal = settings.normalOffset_texels != 0 ? 1 : 0;
+    space_.origin = constant(p.origin);
+    space_.right = constant(p.right);
+    space_.down = constant(p.down);
+    space_.forward = constant(p.forward);
+    space_.centreU = T(p.centreU);
+    space_.centreV = T(p.centreV);
+    space_.scale = T(p.scale);
+    space_.depthScale = T(p.depthScale);
+    space_.depthOffset = T(p.depthOffset);
+    space_.bias = T(settings.depthOffset);
+    space_.nearer = T(1.0 - settings.bias.constant * kLinearBiasUnit);
+    space_.slopeBias = T(map.holdsDistance() ? settings.bias.slopeScale : 0.0);
+    space_.normalOffset = T(settings.normalOffset_texels);
+    space_.width = T(p.width);
+    space_.reach = T(reach);
+
+    if (settings.filter == ShadowFilter::disc || settings.filter == ShadowFilter::soft)
+        pattern_ = discPattern(settings.taps, settings.seed);
+    if (settings.filter == ShadowFilter::soft) {
+        // See blurRadius and blurRadiusOfDistance.
+        const double halfSize = settings.lightSize_m / 2 * p.scale;
+        blurScale_ = !p.isPerspective      ? settings.tangentOfHalfAngle * p.scale / p.depthScale
+                     : map.holdsDistance() ? halfSize
+                                           : halfSize / p.depthOffset;
+        nearest_ = map.holdsDistance() ? p.near_m : 0;
+    }
+
+    pad_ = 2 * reach + 2;
+    stride_ = p.width + 2 * pad_ + N;
+    planes_.resize(map.layers.size());
+    for (size_t layer = 0; layer < planes_.size(); layer++) fillPlane(layer, threads);
+}
+
+template <class T>
+void ShadowLookupOf<T>::fillPlane(size_t layer, int threads) {
+    const ShadowLayer& from = map_.layers[layer];
+    const bool isDistance = !from.distance_m.empty();
+    if (!isDistance && from.stored.empty()) return;
+    const int width = map_.projection.width;
+    const DepthFormat format = map_.format();
+    std::vector<Stored>& to = planes_[layer].texels;
+    Stored farthest;
+    TexelFetch<T>::store(levels_ > 0 ? T(levels_) : farthest_, &farthest, 1);
+    to.resize(static_cast<size_t>(stride_) * static_cast<size_t>(width + 2 * pad_));
+    parallelFor(static_cast<size_t>(width + 2 * pad_), threads, [&](size_t row) {
+        Stored* line = &to[row * static_cast<size_t>(stride_)];
+        const int y = static_cast<int>(row) - pad_;
+        if (y < 0 || y >= width) {
+            std::fill(line, line + stride_, farthest);
+            return;
+        }
+        std::fill(line, line + pad_, farthest);
+        std::fill(line + pad_ + width, line + stride_, farthest);
+        line += pad_;
+        const auto convert = [&](auto&& valueAt) {
+            forEachLaneGroup<N>(static_cast<size_t>(width), [&](size_t first, int active) {
+                const T value = generateNumber<T>(
+                    [&](int i) { return valueAt(first + static_cast<size_t>(std::min(i, active - 1))); });
+                TexelFetch<T>::store(value, line + first, active);
+            });
+        };
+        if (isDistance) {
+            const float* distances = &from.distance_m.at(0, y);
+            convert([&](size_t x) { return static_cast<double>(distances[x]); });
+            return;
+        }
+        const uint32_t* stored = &from.stored.at(0, y);
+        if constexpr (std::is_same_v<Stored, float>)
+            if (format == DepthFormat::d32f) {
+                std::memcpy(line, stored, static_cast<size_t>(width) * sizeof(float));
+                return;
+            }
+        if (levels_ > 0)
+            convert([&](size_t x) { return static_cast<double>(stored[x]); });
+        else if (format == DepthFormat::d32f)
+            convert([&](size_t x) { return static_cast<double>(std::bit_cast<float>(stored[x])); });
+        else
+            convert([&, levels = depthLevels(format)](size_t x) { return stored[x] / levels; });
+    });
+}
+
+template <class T>
+void ShadowLookupOf<T>::find(const LitPoints& points, std::span<double> visibility) const {
+    ETALON_CHECK(visibility.size() == points.size(), "{} values of {} points", visibility.size(),
+                 points.size());
+    if (planes_.empty()) {
+        std::fill(visibility.begin(), visibility.end(), 1.0);
+        return;
+    }
+    Places places;
+    for (size_t first = 0; first < points.size(); first += kChunk) {
+        const size_t count = std::min(kChunk, points.size() - first);
+        const std::span<double> part = visibility.subspan(first, count);
+        place(points, first, count, places);
+        if (pattern_.empty())
+            findWindow(places, count, part);
+        else
+            findDisc(points, first, places, count, part);
+        for (size_t i = 0; i < count; i++)
+            if (places.layer[i] == kNoLayer) part[i] = 1;
+    }
+}
+
+template <class T>
+[[gnu::flatten]] void ShadowLookupOf<T>::place(const LitPoints& points, size_t first, size_t count,
+                                               Places& places) const {
+    K kernels;
+    forEachLaneGroup<N>(count, [&](size_t offset, int active) {
+        const size_t at = first + offset;
+        const vec3 position = load(points.position_m, at, active), normal = load(points.normal, at, active),
+                   face = load(points.faceNormal, at, active);
+        const typename K::ShadowPoint p = kernels.shadowPoint(space_, position, normal, face);
+        const typename K::TexelPair x = kernels.windowStart(p.u, windowTaps_, fractionBits_);
+        const typename K::TexelPair y = kernels.windowStart(p.v, windowTaps_, fractionBits_);
+        const T centreU = kernels.firstCentre(p.u, x), centreV = kernels.firstCentre(p.v, y);
+        const std::array<std::pair<const T*, Stored*>, 9> values = {{{&p.u, places.u.data()},
+                                                                     {&p.v, places.v.data()},
+                                                                     {&p.depth, places.depth.data()},
+                                                                     {&p.perU, places.perU.data()},
+                                                                     {&p.perV, places.perV.data()},
+                                                                     {&x.fraction, places.fractionX.data()},
+                                                                     {&y.fraction, places.fractionY.data()},
+                                                                     {&centreU, places.centreU.data()},
+                                                                     {&centreV, places.centreV.data()}}};
+        for (const auto& [value, to] : values) TexelFetch<T>::store(*value, to + offset, active);
+        const uint32_t inFront = bitsOf(p.isInFront);
+        for (int i = 0; i < active; i++) {
+            const size_t j = offset + static_cast<size_t>(i);
+            const int layer = integerLane(p.layer, i);
+            const bool isLookedUp = (inFront >> i & 1) != 0 && points.instance[first + j] != kNoInstance &&
+                                    planes_[static_cast<size_t>(layer)].isDrawn();
+            places.layer[j] = isLookedUp ? layer : kNoLayer;
+            places.x[j] = integerLane(x.first, i);
+            places.y[j] = integerLane(y.first, i);
+        }
+    });
+}
+
+// Texels below the reference, as the bits of lanes, both as integers of the format.
+template <class T>
+uint32_t ShadowLookupOf<T>::compareQuantised(const T& texels, const T& reference) const {
+    RasterKernels<double> kernels;
+    uint32_t bits = 0;
+    for (int i = 0; i < N; i++)
+        bits |= (numberLane(texels, i) < kernels.unormDepth(numberLane(reference, i), levels_) ? 1u : 0u)
+                << i;
+    return bits;
+}
+
+// Bit i: texel i of the row is in the way.
+template <class T>
+[[gnu::always_inline]] inline uint32_t ShadowLookupOf<T>::shadowedInRow(const Stored* row, const T& depth,
+                                                                        const T& perU, const T& perV,
+                                                                        const T& centreU, const T& dv) const {
+    K kernels;
+    uint32_t bits = 0;
+    for (int first = 0; first <= windowTaps_; first += N) {
+        const T du = centreU + generateNumber<T>([&](int i) { return static_cast<double>(first + i); });
+        const T reference = kernels.referenceDepth(depth, perU, perV, du, dv, farthest_);
+        const T texels = TexelFetch<T>::contiguous(row + first);
+        bits |= (levels_ > 0 ? compareQuantised(texels, reference) : bitsOf(texels < reference)) << first;
+    }
+    return bits;
+}
+
+// pcf: the comparisons of each point side by side, then the weights of all points.
+template <class T>
+void ShadowLookupOf<T>::findWindow(const Places& places, size_t count, std::span<double> visibility) const {
+    K kernels;
+    const int taps = windowTaps_;
+    const uint32_t window = (1u << taps) - 1;
+    std::array<std::array<Stored, kChunk>, 4> lit;
+    for (size_t i = 0; i < count; i++) {
+        const auto whole = static_cast<Stored>(taps * taps);
+        for (auto& corner : lit) corner[i] = whole;
+        if (places.layer[i] == kNoLayer) continue;
+        const T depth(places.depth[i]), perU(places.perU[i]), perV(places.perV[i]),
+            centreU(places.centreU[i]);
+        const Stored* row = texel(places.layer[i], places.x[i], places.y[i]);
+        int upper[2] = {0, 0}, lower[2] = {0, 0};
+        for (int j = 0; j <= taps; j++, row += stride_) {
+            const T dv = T(places.centreV[i]) + T(static_cast<double>(j));
+            const uint32_t bits = shadowedInRow(row, depth, perU, perV, centreU, dv);
+            const int left = std::popcount(bits & window), right = std::popcount(bits >> 1 & window);
+            if (j < taps) upper[0] += left, upper[1] += right;
+            if (j > 0) lower[0] += left, lower[1] += right;
+        }
+        lit[0][i] = whole - static_cast<Stored>(upper[0]);
+        lit[1][i] = whole - static_cast<Stored>(upper[1]);
+        lit[2][i] = whole - static_cast<Stored>(lower[0]);
+        lit[3][i] = whole - static_cast<Stored>(lower[1]);
+    }
+    forEachLaneGroup<N>(count, [&](size_t offset, int active) {
+        const T part = kernels.litPart(load(&lit[0][offset], active), load(&lit[1][offset], active),
+                                       load(&lit[2][offset], active), load(&lit[3][offset], active),
+                                       load(&places.fractionX[offset], active),
+                                       load(&places.fractionY[offset], active), taps);
+        for (int i = 0; i < active; i++) visibility[offset + static_cast<size_t>(i)] = numberLane(part, i);
+    });
+}
+
+template <class T>
+T ShadowLookupOf<T>::fetch(const std::array<int, kChunk>& layers, size_t first, const integer& x,
+                           const integer& y) const {
+    return generateNumber<T>([&](int i) {
+        const int layer = layers[std::min(first + static_cast<size_t>(i), kChunk - 1)];
+        if (layer == kNoLayer) return 0.0;
+        return static_cast<double>(*texel(layer, integerLane(x, i), integerLane(y, i)));
+    });
+}
+
+// disc and soft: points side by side, one point of the pattern after the other.
+template <class T>
+void ShadowLookupOf<T>::findDisc(const LitPoints& points, size_t first, const Places& places, size_t count,
+                                 std::span<double> visibility) const {
+    K kernels;
+    const ShadowMapSettings& settings = map_.settings;
+    const T most(settings.radius_texels);
+    forEachLaneGroup<N>(count, [&](size_t offset, int active) {
+        const T u = load(&places.u[offset], active), v = load(&places.v[offset], active),
+                depth = load(&places.depth[offset], active), perU = load(&places.perU[offset], active),
+                perV = load(&places.perV[offset], active);
+        const auto turn = [&](bool isSine) {
+            return generateNumber<T>([&](int i) {
+                const size_t j = first + offset + static_cast<size_t>(std::min(i, active - 1));
+                const glm::dvec2& t = turns_.of(points.x_px[j], points.y_px[j]);
+                return isSine ? t.y : t.x;
+            });
+        };
+        const T cosine = turn(false), sine = turn(true);
+        std::array<int, kChunk> layers;
+        for (int i = 0; i < N; i++)
+            layers[static_cast<size_t>(i)] =
+                places.layer[offset + static_cast<size_t>(std::min(i, active - 1))];
+        // Calls use(texel, whether it is in the way) for the pattern at a radius.
+        const auto forPattern = [&](const T& radius, auto&& use) {
+            for (const glm::dvec2& point : pattern_) {
+                const auto shift = kernels.turned(T(point.x), T(point.y), cosine, sine, radius);
+                const T x = K::floor(u + shift.x), y = K::floor(v + shift.y);
+                const T texels = fetch(layers, 0, K::toInteger(x), K::toInteger(y));
+                const T half(0.5);
+                const T reference =
+                    kernels.referenceDepth(depth, perU, perV, (x + half) - u, (y + half) - v, farthest_);
+                if (levels_ > 0) {
+                    const uint32_t bits = compareQuantised(texels, reference);
+                    const T inTheWay =
+                        generateNumber<T>([&](int i) { return (bits >> i & 1) != 0 ? 1.0 : 0.0; });
+                    use(texels / T(levels_), inTheWay > T(0.0));
+                } else {
+                    use(texels, texels < reference);
+                }
+            }
+        };
+        T radius = most;
+        T blockers(1.0);
+        if (settings.filter == ShadowFilter::soft) {
+            T sum(0.0);
+            blockers = T(0.0);
+            const T perDepth(blurScale_), zero(0.0);
+            const auto radiusPast = [&](const T& blocker, double least) {
+                return map_.holdsDistance()
+                           ? kernels.blurRadiusOfDistance(depth, blocker, perDepth, T(least), most)
+                           : kernels.blurRadius(depth, blocker, perDepth, T(least), most);
+            };
+            forPattern(radiusPast(T(nearest_), 0), [&](const T& texel, const boolean& isInTheWay) {
+                sum = sum + K::select(isInTheWay, texel, zero);
+                blockers = blockers + K::select(isInTheWay, T(1.0), zero);
+            });
+            const boolean isBlocked = blockers > zero;
+            // Half a texel: what the map resolves.
+            constexpr double kLeastRadius_texels = 0.5;
+            radius = radiusPast(sum / K::select(isBlocked, blockers, T(1.0)),
+                                std::min(kLeastRadius_texels, settings.radius_texels));
+        }
+        T lit(0.0);
+        forPattern(radius, [&](const T&, const boolean& isInTheWay) {
+            lit = lit + K::select(isInTheWay, T(0.0), T(1.0));
+        });
+        T part = lit / T(static_cast<double>(pattern_.size()));
+        part = K::select(blockers > T(0.0), part, T(1.0));
+        for (int i = 0; i < active; i++) visibility[offset + static_cast<size_t>(i)] = numberLane(part, i);
+    });
+}
+
+}  // namespace etalon

@@ -1,0 +1,31 @@
+// Look-ups in shadow maps, once per fragment arithmetic (raster/fragment_numbers.h).
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "lighting/light_visibility.h"
+#include "raster/profile.h"
+#include "shadows/shadow_map.h"
+
+namespace etalon {
+
+// A map whose texels are numbers of the arithmetic (each rounded once), ready for look-ups. The functions may
+// be called from several threads at once.
+class ShadowLookup {
+  public:
+    virtual ~ShadowLookup() = default;
+    // visibility[i]: the part of the light that reaches point i by the map's filter; 1 outside the map,
+    // behind the light, for positions that are not numbers, and for points of no instance.
+    virtual void find(const LitPoints& points, std::span<double> visibility) const = 0;
+};
+
+struct LookupPasses {
+    // fractionBits: of pcf's weights, as in raster/sampler.h.
+    std::unique_ptr<ShadowLookup> (*makeLookup)(const ShadowMap& map, int fractionBits, int threads);
+};
+
+// Those of an arithmetic.
+LookupPasses lookupPasses(FragmentArithmetic arithmetic);
+
+}  // namespace etalon

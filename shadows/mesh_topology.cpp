@@ -1,0 +1,104 @@
+#include "shadows/mesh_topology.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <numeric>
+
+#include "numeric/check.h"
+#include "shadows/exact_side.h"
+
+namespace etalon {
+namespace {
+
+// For each vertex the first one in the same place.
+std::vector<uint32_t> weldedVertices(std::span<const glm::dvec3> positions) {
+    const auto key = [&](uint32_t v) {
+        const glm::dvec3& p = positions[v];
+        return std::array<uint64_t, 3>{std::bit_cast<uint64_t>(p.x + 0.0), std::bit_cast<uint64_t>(p.y + 0.0),
+                                       std::bit_cast<uint64_t>(p.z + 0.0)};
+    };
+    std::vector<uint32_t> order(positions.size());
+    std::iota(order.begin(), order.end(), 0u);
+    std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
+        const auto ka = key(a), kb = key(b);
+        return ka != kb ? ka < kb : a < b;
+    });
+    std::vector<uint32_t> welded(positions.size());
+    for (size_t i = 0; i < order.size(); i++) {
+        const bool isSame = i > 0 && key(order[i]) == key(order[i - 1]);
+        welded[order[i]] = isSame ? welded[order[i - 1]] : order[i];
+    }
+    return welded;
+}
+
+struct DirectedEdge {
+    uint32_t from, to;
+    EdgeUse use;
+};
+
+std::vector<DirectedEdge> edgesOfTriangles(std::span<const glm::dvec3> positions,
+                                           std::span<const uint32_t> indices, MeshTopology& topology) {
+    const std::vector<uint32_t> welded = weldedVertices(positions);
+    std::vector<DirectedEdge> edges;
+    edges.reserve(indices.size());
+    for (uint32_t t = 0; t < indices.size() / 3; t++) {
+        std::array<uint32_t, 3> corner;
+        for (size_t i = 0; i < 3; i++) {
+            ETALON_CHECK(indices[3 * size_t{t} + i] < positions.size(), "triangle {}: vertex {} of {}", t,
+                         indices[3 * size_t{t} + i], positions.size());
+            corner[i] = welded[indices[3 * size_t{t} + i]];
+        }
+        topology.isUsed[t] =
+            std::all_of(corner.begin(), corner.end(), [&](uint32_t v) { return isExactPoint(positions[v]); });
+        if (!topology.isUsed[t]) {
+            topology.leftOut++;
+            continue;
+        }
+        if (corner[0] == corner[1] || corner[1] == corner[2] || corner[2] == corner[0]) {
+            topology.degenerate++;
+            continue;
+        }
+        for (size_t i = 0; i < 3; i++) {
+            const uint32_t a = corner[i], b = corner[(i + 1) % 3];
+            edges.push_back({std::min(a, b), std::max(a, b), {t, a < b ? 1 : -1}});
+        }
+    }
+    return edges;
+}
+
+void classify(MeshTopology& topology) {
+    topology.isClosed = true;
+    for (const MeshEdge& edge : topology.edges) {
+        int sum = 0;
+        for (uint32_t i = 0; i < edge.useCount; i++) sum += topology.uses[edge.firstUse + i].direction;
+        if (edge.useCount == 1) topology.openEdges++;
+        if (edge.useCount == 2 && sum != 0) topology.discordantEdges++;
+        if (edge.useCount > 2) topology.crowdedEdges++;
+        if (sum != 0) topology.isClosed = false;
+    }
+}
+
+}  // namespace
+
+MeshTopology topologyOf(std::span<const glm::dvec3> positions, std::span<const uint32_t> indices) {
+    MeshTopology topology;
+    topology.isUsed.resize(indices.size() / 3);
+    std::vector<DirectedEdge> directed = edgesOfTriangles(positions, indices, topology);
+    std::sort(directed.begin(), directed.end(), [](const DirectedEdge& a, const DirectedEdge& b) {
+        if (a.from != b.from) return a.from < b.from;
+        return a.to != b.to ? a.to < b.to : a.use.triangle < b.use.triangle;
+    });
+    topology.uses.reserve(directed.size());
+    for (const DirectedEdge& d : directed) {
+        const bool isNew = topology.edges.empty() || topology.edges.back().from != d.from ||
+                           topology.edges.back().to != d.to;
+        if (isNew) topology.edges.push_back({d.from, d.to, static_cast<uint32_t>(topology.uses.size()), 0});
+        topology.edges.back().useCount++;
+        topology.uses.push_back(d.use);
+    }
+    classify(topology);
+    return topology;
+}
+
+}  // namespace etalon

@@ -1,0 +1,20 @@
+#include "shadows/shadow_maps.h"
+
+#include "numeric/check.h"
+
+namespace etalon {
+
+void ShadowMaps::set(size_t light, ShadowMap map, const Profile& profile, int threads) {
+    ETALON_CHECK(light < entries_.size(), "light {} of {}", light, entries_.size());
+    Entry& entry = entries_[light];
+    entry.lookup.reset();
+    entry.map.reset();
+    if (map.layers.empty()) return;
+    entry.map = std::make_unique<ShadowMap>(std::move(map));
+    entry.lookup =
+        lookupPasses(profile.fragment).makeLookup(*entry.map, profile.textureFractionBits, threads);
+    // The look-up has its own copy.
+    for (ShadowLayer& layer : entry.map->layers) layer = {};
+}
+
+}  // namespace etalon

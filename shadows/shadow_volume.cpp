@@ -1,0 +1,136 @@
+#include "shadows/shadow_volume.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "numeric/check.h"
+#include "numeric/elementary.h"
+#include "numeric/parallel.h"
+#include "shadows/exact_side.h"
+
+namespace etalon {
+namespace {
+
+constexpr size_t kTrianglesPerTask = 4096;
+
+double dot(const glm::dvec3& a, const glm::dvec3& b) { return a.x * b.x + (a.y * b.y + a.z * b.z); }
+glm::dvec3 cross(const glm::dvec3& a, const glm::dvec3& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+struct Mesh {
+    std::span<const glm::dvec3> positions;
+    std::span<const uint32_t> indices;
+    const MeshTopology* topology;
+
+    const glm::dvec3& corner(size_t triangle, size_t i) const { return positions[indices[3 * triangle + i]]; }
+    // Calls visit(a, b, c) for the triangles that are not left out.
+    template <class Visit>
+    void forEachTriangle(Visit visit) const {
+        for (size_t t = 0; t < indices.size() / 3; t++)
+            if (topology->isUsed[t]) visit(corner(t, 0), corner(t, 1), corner(t, 2));
+    }
+};
+
+bool isInBox(const Mesh& mesh, const glm::dvec3& point) {
+    glm::dvec3 lowest(HUGE_VAL), highest(-HUGE_VAL);
+    mesh.forEachTriangle([&](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+        for (int i = 0; i < 3; i++) {
+            lowest[i] = std::min({lowest[i], a[i], b[i], c[i]});
+            highest[i] = std::max({highest[i], a[i], b[i], c[i]});
+        }
+    });
+    for (int i = 0; i < 3; i++)
+        if (point[i] < lowest[i] || point[i] > highest[i]) return false;
+    return true;
+}
+
+// For each triangle: 1 if the light sees it counter-clockwise, -1 if clockwise, 0 if edge-on or left out.
+std::vector<int8_t> facingOf(const Mesh& mesh, const LightSource& light, int threads) {
+    const size_t count = mesh.indices.size() / 3;
+    std::vector<int8_t> facing(count, 0);
+    parallelFor((count + kTrianglesPerTask - 1) / kTrianglesPerTask, threads, [&](size_t task) {
+        const size_t end = std::min(count, (task + 1) * kTrianglesPerTask);
+        for (size_t t = task * kTrianglesPerTask; t < end; t++) {
+            if (!mesh.topology->isUsed[t]) continue;
+            const glm::dvec3 &a = mesh.corner(t, 0), &b = mesh.corner(t, 1), &c = mesh.corner(t, 2);
+            facing[t] = static_cast<int8_t>(light.atInfinity ? sideOfTriangleTowards(a, b, c, light.place)
+                                                             : sideOfTriangle(a, b, c, light.place));
+        }
+    });
+    return facing;
+}
+
+// The side behind the edge a -> b of a cap.
+void addSide(ShadowVolume& volume, uint32_t a, uint32_t b, uint32_t vertices, bool atInfinity) {
+    if (atInfinity)
+        volume.sides.insert(volume.sides.end(), {b, a, vertices});
+    else
+        volume.sides.insert(volume.sides.end(), {b, a, vertices + a, b, vertices + a, vertices + b});
+}
+
+}  // namespace
+
+double signedVolume(std::span<const glm::dvec3> positions, std::span<const uint32_t> indices,
+                    const MeshTopology& topology) {
+    double sum = 0;
+    const glm::dvec3 origin = positions.empty() ? glm::dvec3(0) : positions[0];
+    Mesh{positions, indices, &topology}.forEachTriangle(
+        [&](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+            sum = sum + dot(a - origin, cross(b - origin, c - origin));
+        });
+    return sum / 6;
+}
+
+bool mayBeInside(std::span<const glm::dvec3> positions, std::span<const uint32_t> indices,
+                 const MeshTopology& topology, const glm::dvec3& point) {
+    const Mesh mesh{positions, indices, &topology};
+    if (!isInBox(mesh, point)) return false;
+    // Solid angles by [Oosterom83]; a closed surface turns a whole number of times around a point.
+    double turned_rad = 0;
+    mesh.forEachTriangle([&](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+        const glm::dvec3 u = a - point, v = b - point, w = c - point;
+        const double lu = std::sqrt(dot(u, u)), lv = std::sqrt(dot(v, v)), lw = std::sqrt(dot(w, w));
+        const double divisor = lu * lv * lw + (dot(u, v) * lw + (dot(v, w) * lu + dot(w, u) * lv));
+        turned_rad = turned_rad + 2 * atan2Of(dot(u, cross(v, w)), divisor);
+    });
+    constexpr double kQuarterOfASphere = 3.14;
+    return !(std::fabs(turned_rad) < kQuarterOfASphere);
+}
+
+ShadowVolume shadowVolumeOf(std::span<const glm::dvec3> positions, std::span<const uint32_t> indices,
+                            const MeshTopology& topology, const LightSource& light, int threads) {
+    ETALON_CHECK(isExactPoint(light.place), "light {} {} {}", light.place.x, light.place.y, light.place.z);
+    const Mesh mesh{positions, indices, &topology};
+    std::vector<int8_t> facing = facingOf(mesh, light, threads);
+
+    ShadowVolume volume;
+    volume.frontsOnly =
+        topology.isClosed && (light.atInfinity || !mayBeInside(positions, indices, topology, light.place));
+    if (volume.frontsOnly) {
+        const int8_t front = signedVolume(positions, indices, topology) >= 0 ? 1 : -1;
+        for (int8_t& f : facing)
+            if (f != front) f = 0;
+    }
+
+    for (uint32_t t = 0; t < facing.size(); t++) {
+        if (facing[t] > 0) volume.facing.push_back(t);
+        if (facing[t] < 0) volume.away.push_back(t);
+    }
+    const auto vertices = static_cast<uint32_t>(positions.size());
+    for (const MeshEdge& edge : topology.edges) {
+        int count = 0;
+        for (uint32_t i = 0; i < edge.useCount; i++) {
+            const EdgeUse& use = topology.uses[edge.firstUse + i];
+            count += use.direction * facing[use.triangle];
+        }
+        volume.silhouetteEdges += count != 0 ? 1 : 0;
+        for (int i = 0; i < std::abs(count); i++)
+            addSide(volume, count > 0 ? edge.from : edge.to, count > 0 ? edge.to : edge.from, vertices,
+                    light.atInfinity);
+    }
+    return volume;
+}
+
+}  // namespace etalon

@@ -1,0 +1,173 @@
+#include "shadows/volume_shadows.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "numeric/check.h"
+
+namespace etalon {
+namespace {
+
+// A caster in the view: what does not depend on the light.
+struct Caster {
+    const PlacedMesh* placed;
+    MeshTopology topology;
+    UninitializedVector<ClipVertex> near;  // its vertices
+};
+
+// One caster's volume on the screen.
+struct DrawnVolume {
+    ShadowVolume volume;
+    std::vector<ClipVertex> vertices;  // numbered as the volume's
+};
+
+// The vertices infinitely far behind the mesh.
+void addFarVertices(const Caster& caster, const LightSource& light, const View& view, RasterReal real,
+                    int threads, std::vector<ClipVertex>& vertices) {
+    // Directions have no place: the last column of the matrix does not apply.
+    View directions = view;
+    for (glm::dvec4& row : directions.worldToClip) row.w = 0;
+    PlacedMesh behind;
+    if (light.atInfinity) {
+        behind.positions = {-light.place};
+    } else {
+        behind.positions.reserve(caster.placed->positions.size());
+        for (const glm::dvec3& p : caster.placed->positions) behind.positions.push_back(p - light.place);
+    }
+    UninitializedVector<ClipVertex> far;
+    toClipSpace(behind, directions, real, threads, far);
+    vertices.insert(vertices.end(), far.begin(), far.end());
+}
+
+DrawState stateOf(VolumeCounting counting, bool frontIsClockwise) {
+    DrawState state;
+    state.cull = CullMode::none;
+    state.frontIsClockwise = frontIsClockwise;
+    state.depthWrite = state.idWrite = false;
+    state.stencil.enabled = true;
+    if (counting == VolumeCounting::zFail) {
+        state.stencil.front.onDepthFail = StencilOperation::decrementWrap;
+        state.stencil.back.onDepthFail = StencilOperation::incrementWrap;
+    } else {
+        state.stencil.front.onPass = StencilOperation::incrementWrap;
+        state.stencil.back.onPass = StencilOperation::decrementWrap;
+    }
+    return state;
+}
+
+void addDraws(const DrawnVolume& drawn, const Caster& caster, const LightSource& light,
+              const VolumeShadowOptions& options, bool mirroredView, std::vector<Draw>& draws) {
+    const ShadowVolume& volume = drawn.volume;
+    const std::span<const ClipVertex> all = drawn.vertices;
+    const size_t count = caster.placed->positions.size();
+    // The near plane cuts caps as it cuts what is visible, to the same depths. Of the sides behind zFail's
+    // samples it takes nothing; those in front of zPass's begin at the eye.
+    // Caps keep the order of their vertices, so that clipping cuts them as it cuts what is visible; triangles
+    // that face away from the light are seen from their other side.
+    const auto addCap = [&](std::span<const ClipVertex> vertices, const std::vector<uint32_t>& triangles,
+                            bool reversed) {
+        if (triangles.empty()) return;
+        Draw draw{vertices, caster.placed->mesh->indices, stateOf(options.counting, mirroredView != reversed),
+                  triangles};
+        draws.push_back(draw);
+    };
+    addCap(all.first(count), volume.facing, false);
+    addCap(all.first(count), volume.away, true);
+    // The dark cap of a light at infinity is a point, and with zPass it is never in front.
+    if (!light.atInfinity && options.counting == VolumeCounting::zFail) {
+        addCap(all.subspan(count), volume.facing, true);
+        addCap(all.subspan(count), volume.away, false);
+    }
+    if (volume.sides.empty()) return;
+    draws.push_back({all, volume.sides, stateOf(options.counting, mirroredView), {}});
+    draws.back().state.depthClamp = options.counting == VolumeCounting::zPass;
+}
+
+Image<uint32_t> visibleInstances(const VisibleScene& visible) {
+    const RenderTarget& target = visible.target;
+    Image<uint32_t> instances(target.width(), target.height(), target.format.samples);
+    for (size_t i = 0; i < instances.values().size(); i++) {
+        const uint32_t id = target.id.values()[i];
+        instances.values()[i] =
+            id == kNoTriangle ? kNoInstance : visible.instanceOfDraw[target.triangles[id].draw];
+    }
+    return instances;
+}
+
+}  // namespace
+
+VolumeShadows::VolumeShadows(const SurfaceScene& scene, const std::vector<PlacedMesh>& placed,
+                             const View& view, const Profile& profile, const VolumeShadowOptions& options,
+                             const RasterOptions& raster)
+    : lit_(scene.lights.size()) {
+    ETALON_CHECK(!options.casters || options.casters->size() == scene.lights.size(), "{} lights of {}",
+                 options.casters ? options.casters->size() : 0, scene.lights.size());
+    const View infinite = withInfiniteFar(view);
+    VisibleScene visible =
+        findVisible(scene, placed, infinite, profile, options.samples, raster, options.excluded);
+    instance_ = visibleInstances(visible);
+
+    std::vector<std::optional<Caster>> prepared(placed.size());
+    const auto casterOf = [&](uint32_t instance) -> const Caster& {
+        std::optional<Caster>& caster = prepared[instance];
+        if (caster) return *caster;
+        const PlacedMesh& mesh = placed[instance];
+        caster.emplace(Caster{&mesh, topologyOf(mesh.positions, mesh.mesh->indices), {}});
+        toClipSpace(mesh, infinite, profile.vertex, raster.threads, caster->near);
+        statistics_.openEdges += caster->topology.openEdges;
+        statistics_.crowdedEdges += caster->topology.crowdedEdges;
+        statistics_.discordantEdges += caster->topology.discordantEdges;
+        statistics_.leftOut += caster->topology.leftOut;
+        return *caster;
+    };
+    std::vector<uint32_t> all(placed.size());
+    std::iota(all.begin(), all.end(), 0u);
+
+    for (size_t l = 0; l < scene.lights.size(); l++) {
+        const std::vector<uint32_t>& casters = options.casters ? (*options.casters)[l] : all;
+        const LightSource light = lightSourceOf(scene.lights[l]);
+        std::vector<DrawnVolume> volumes(casters.size());
+        std::vector<Draw> draws;
+        for (size_t c = 0; c < casters.size(); c++) {
+            DrawnVolume& drawn = volumes[c];
+            const Caster& caster = casterOf(casters[c]);
+            drawn.volume = shadowVolumeOf(caster.placed->positions, caster.placed->mesh->indices,
+                                          caster.topology, light, raster.threads);
+            if (drawn.volume.empty()) continue;
+            drawn.vertices.assign(caster.near.begin(), caster.near.end());
+            addFarVertices(caster, light, infinite, profile.vertex, raster.threads, drawn.vertices);
+            addDraws(drawn, caster, light, options, view.mirrored, draws);
+            statistics_.caps += drawn.volume.facing.size() + drawn.volume.away.size();
+            statistics_.sides += drawn.volume.sides.size() / 3;
+            statistics_.silhouetteEdges += drawn.volume.silhouetteEdges;
+        }
+        if (draws.empty()) continue;
+        // Depths stay; the triangles of the volumes are not kept.
+        RenderTarget& target = visible.target;
+        target.forgetTriangles();
+        std::fill(target.stencil.values().begin(), target.stencil.values().end(), uint8_t{0});
+        statistics_.raster = rasterize(target, {0, 0, view.width, view.height}, draws, raster);
+        lit_[l] = target.stencil;
+        const std::span<uint8_t> lit = lit_[l].values();
+        for (size_t i = 0; i < lit.size(); i++)
+            lit[i] = lit[i] == 0 || instance_.values()[i] == kNoInstance ? 1 : 0;
+    }
+}
+
+void VolumeShadows::find(size_t light, const LitPoints& points, std::span<double> visibility) const {
+    const Image<uint8_t>& mask = lit_[light];
+    const int samples = mask.channels();
+    for (size_t i = 0; i < points.size(); i++) {
+        const auto x = static_cast<int>(points.x_px[i]), y = static_cast<int>(points.y_px[i]);
+        int own = 0, ownLit = 0, allLit = 0;
+        for (int s = 0; s < samples; s++) {
+            const bool isOwn = instance_.at(x, y, s) == points.instance[i];
+            own += isOwn ? 1 : 0;
+            ownLit += isOwn ? mask.at(x, y, s) : 0;
+            allLit += mask.at(x, y, s);
+        }
+        visibility[i] = own > 0 ? static_cast<double>(ownLit) / own : static_cast<double>(allLit) / samples;
+    }
+}
+
+}  // namespace etalon
