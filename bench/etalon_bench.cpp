@@ -148,6 +148,22 @@ void addCubeFromLatLong(const Way& way) {
     });
 }
 
+// Triangles count once per sample of the light. Touches the casters, and counts and shadow of each texel,
+// once.
+void addPlanar(const std::string& name, int samples, double blur_m, const Way& way) {
+    const std::string pass = "planar" + std::to_string(samples) + (blur_m > 0 ? "-blur" : "");
+    add(pass + "/" + name, way, [=](benchmark::State& state) {
+        const Workload& w = workload(name, 1);
+        const PlanarWork work = planarWork(place(w, way.profile), samples);
+        const RasterOptions options{.threads = way.threads};
+        const size_t texels = drawPlanarShadow(work, blur_m, options).shadow.pixelCount();
+        const Amount amount{.triangles = static_cast<double>(work.casters.indices.size() / 3) * samples,
+                            .pixels = static_cast<double>(texels),
+                            .bytes_touched = meshBytes(w) + texels * (sizeof(uint32_t) + sizeof(float))};
+        measure(state, amount, [&] { return drawPlanarShadow(work, blur_m, options); });
+    });
+}
+
 void addAll() {
     for (const int threads : {1, 2}) {
         const Way way{.threads = threads};
@@ -162,6 +178,11 @@ void addAll() {
         addCube(way);
         addBlur(way);
         addCubeFromLatLong(way);
+        for (const char* name : {"1k", "70k"}) {
+            addPlanar(name, 256, 0, way);
+            addPlanar(name, 25, 0, way);
+            addPlanar(name, 25, kPlanarBlur_m, way);
+        }
     }
     for (const IsaLevel level : usableIsaLevels()) {
         const Way way{.level = level};

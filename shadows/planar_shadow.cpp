@@ -2,25 +2,26 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "lighting/lighting_passes.h"
 #include "numeric/check.h"
 #include "numeric/parallel.h"
+#include "raster/fragments.h"
+#include "shadows/light_samples.h"
 #include "shadows/planar_passes.h"
 
 namespace etalon {
 namespace {
 
-// Samples that are drawn before their stencil counts are added up: what 8 bits hold. Sample k of them is
-// drawn at depth (kPerRound - k) / 256, nearer than those before it, so that each pixel counts it once
-// however many triangles cover it. The depth is exact in float.
-constexpr int kPerRound = 255;
-constexpr double kDepthStep = 0x1p-8;
-// Vertices that are projected in one call.
-constexpr size_t kVerticesPerCall = size_t{1} << 20;
+// Sample k is drawn at depth 1 - (k + 1) kDepthStep, nearer than those before it, so that a target is cleared
+// once for all samples, and tells afterwards where the last one is. These depths are exact in float.
+constexpr double kDepthStep = 0x1p-17;
+static_assert(kMaxLightSamples * kDepthStep <= 0.5);
 
 // The lights in front of a plane, in its frame and divided by their height: (s / h, t / h, 1, w / h).
 std::vector<glm::dvec4> lightsInFront(const PlaneFrame& frame, std::span<const glm::dvec4> lights) {
@@ -43,6 +44,8 @@ double casterLimit(const glm::dvec4& scaledLight) {
                              : std::numeric_limits<double>::infinity();
 }
 
+constexpr double kUnbounded_m = 0x1p200;
+
 struct Box {
     glm::dvec2 lowest{std::numeric_limits<double>::infinity()};
     glm::dvec2 highest{-std::numeric_limits<double>::infinity()};
@@ -56,9 +59,9 @@ struct Box {
     bool isEmpty() const { return !(lowest.x < highest.x && lowest.y < highest.y); }
 };
 
-// Around the shadows of all casters from all lights.
-Box boxOfShadows(const PlanarReceiver& receiver, const PlanarCasters& casters,
-                 const std::vector<glm::dvec4>& lights, double highest, int threads) {
+// For each light the box around the shadows of all casters.
+std::vector<Box> boxesOfShadows(const PlanarCasters& casters, const std::vector<glm::dvec4>& lights,
+                                double highest, int threads) {
     std::vector<bool> used(casters.vertices.size());
     for (const uint32_t i : casters.indices) used[i] = true;
     std::vector<glm::dvec3> vertices;
@@ -69,21 +72,16 @@ Box boxOfShadows(const PlanarReceiver& receiver, const PlanarCasters& casters,
         const glm::dvec4& light = lights[i];
         // Beyond any bound below a light that is lower than a caster.
         if (highest > casterLimit(light)) {
-            boxes[i].add(receiver.lowest_m());
-            boxes[i].add(receiver.highest_m());
+            boxes[i].add({-kUnbounded_m, -kUnbounded_m});
+            boxes[i].add({kUnbounded_m, kUnbounded_m});
             return;
         }
         for (const glm::dvec3& p : vertices) {
-            const double w = 1.0 - light.w * p.z;
-            boxes[i].add({(p.x - light.x * p.z) / w, (p.y - light.y * p.z) / w});
+            const double reciprocal = 1.0 / (1.0 - light.w * p.z);
+            boxes[i].add({(p.x - light.x * p.z) * reciprocal, (p.y - light.y * p.z) * reciprocal});
         }
     });
-    Box result;
-    for (const Box& box : boxes) {
-        result.add(box.lowest);
-        result.add(box.highest);
-    }
-    return result;
+    return boxes;
 }
 
 // The smallest of 4, 5, 6 and 7 times a power of two that is not below x > 0.
@@ -96,9 +94,12 @@ double roundUpTexel(double x) {
     return 8 * step;
 }
 
-PlanarGrid fitGrid(const PlanarReceiver& receiver, Box box, const PlanarShadowOptions& options) {
+PlanarGrid fitGrid(const PlanarReceiver& receiver, const std::vector<Box>& boxes,
+                   const PlanarShadowOptions& options) {
     PlanarGrid grid;
     grid.frame = receiver.frame;
+    Box box;
+    for (const Box& one : boxes) box.add(one.lowest), box.add(one.highest);
     const double reach = kPlanarBlurReach * options.blurSigma_m;
     const glm::dvec2 lowest = receiver.lowest_m(), highest = receiver.highest_m();
     for (int c = 0; c < 2; c++) {
@@ -145,94 +146,110 @@ RenderTargetFormat formatOf(const Profile& profile, int samples) {
     return format;
 }
 
-// A sample of the light, ready to be drawn.
-struct SampleDraw {
-    std::vector<ClipVertex> vertices;
-    std::vector<uint32_t> cutIndices;  // where the casters are cut below the light
-    std::span<const uint32_t> indices;
+// The texels that a box of the frame can cover: x0 <= x < x1, y0 <= y < y1; one more on each side for
+// snapping.
+PixelRectangle texelsOf(const PlanarGrid& grid, const Box& box) {
+    const auto texel = [&](double v_m, int c, int beyond, int size) {
+        const double position = std::floor((v_m - grid.corner_m[c]) / grid.texel_m) + beyond;
+        return static_cast<int>(std::clamp(position, 0.0, static_cast<double>(size)));
+    };
+    return {texel(box.lowest.x, 0, -1, grid.width), texel(box.lowest.y, 1, -1, grid.height),
+            texel(box.highest.x, 0, 2, grid.width), texel(box.highest.y, 1, 2, grid.height)};
+}
+
+// What drawing the samples reads.
+struct CountJob {
+    const PlanarCasters& casters;
+    double highest;
+    const std::vector<glm::dvec4>& lights;  // in front, divided by their height
+    const std::vector<Box>& boxes;          // of each light
+    const PlanarGrid& grid;
+    RenderTargetFormat format;
+    RasterReal vertex;
+    std::vector<glm::dvec3> inClip;  // the casters' vertices
 };
 
-// Draws samples into a stencil and counts.
+// Draws samples one after the other and counts where each is.
 class SampleCounter {
   public:
-    SampleCounter(const PlanarCasters& casters, double highest, BlockedSamples& result, int samplesPerTexel,
-                  const Profile& profile, const RasterOptions& raster)
-        : casters_(casters),
-          highest_(highest),
-          result_(result),
-          profile_(profile),
+    SampleCounter(const CountJob& job, const RasterOptions& raster)
+        : counts(job.grid.width, job.grid.height),
+          job_(job),
           raster_(raster),
-          target_(result.grid.width, result.grid.height, formatOf(profile, samplesPerTexel)) {
-        for (const glm::dvec3& p : casters.vertices) inClip_.push_back(toClip(result.grid, p));
+          target_(job.grid.width, job.grid.height, job.format) {
         state_.cull = CullMode::none;
         state_.idWrite = false;
-        state_.stencil.enabled = true;
-        state_.stencil.front.onPass = state_.stencil.back.onPass = StencilOperation::incrementWrap;
     }
 
-    void run(std::span<const glm::dvec4> lights) {
-        const size_t perCall =
-            std::clamp(kVerticesPerCall / std::max<size_t>(inClip_.size(), 1), size_t{1}, size_t{kPerRound});
-        for (size_t round = 0; round < lights.size(); round += kPerRound) {
-            const auto inRound = lights.subspan(round, std::min<size_t>(kPerRound, lights.size() - round));
-            for (size_t first = 0; first < inRound.size(); first += perCall)
-                draw(inRound.subspan(first, std::min(perCall, inRound.size() - first)), first);
-            addCounts();
-        }
+    void count(size_t light) {
+        const double depth = 1.0 - static_cast<double>(drawn_++ + 1) * kDepthStep;
+        project(job_.lights[light], depth);
+        target_.forgetTriangles();
+        const Draw draw{vertices_, indices_, state_};
+        rasterize(target_, {0, 0, target_.width(), target_.height()}, {&draw, 1}, raster_);
+        const uint32_t key = std::bit_cast<uint32_t>(static_cast<float>(depth));
+        const PixelRectangle texels = texelsOf(job_.grid, job_.boxes[light]);
+        if (texels.x0 >= texels.x1) return;
+        const auto width = static_cast<size_t>(texels.width());
+        for (int y = texels.y0; y < texels.y1; y++)
+            for (int s = 0; s < job_.format.samples; s++) {
+                const uint32_t* stored = &target_.depth.at(texels.x0, y, s);
+                uint32_t* to = &counts.at(texels.x0, y);
+                for (size_t x = 0; x < width; x++) to[x] += stored[x] == key ? 1u : 0u;
+            }
     }
+
+    Image<uint32_t> counts;
 
   private:
-    void draw(std::span<const glm::dvec4> lights, size_t numberInRound) {
-        draws_.resize(lights.size());
-        parallelFor(lights.size(), raster_.threads, [&](size_t i) {
-            project(lights[i], (kPerRound - static_cast<double>(numberInRound + i)) * kDepthStep, draws_[i]);
-        });
-        std::vector<Draw> list;
-        for (const SampleDraw& sample : draws_) list.push_back({sample.vertices, sample.indices, state_});
-        RasterOptions options = raster_;
-        options.clear = numberInRound == 0;
-        target_.forgetTriangles();
-        rasterize(target_, {0, 0, target_.width(), target_.height()}, list, options);
-    }
-
-    void project(const glm::dvec4& light, double depth, SampleDraw& sample) const {
-        const std::vector<glm::dvec3>* points = &inClip_;
-        sample.indices = casters_.indices;
-        PlanarCasters below;
-        if (highest_ > casterLimit(light)) {
-            below = clipAtHeight({inClip_, casters_.indices}, casterLimit(light), KeepSide::below);
-            sample.cutIndices = below.indices;
-            sample.indices = sample.cutIndices;
-            points = &below.vertices;
+    void project(const glm::dvec4& light, double depth) {
+        std::span<const glm::dvec3> points = job_.inClip;
+        indices_ = job_.casters.indices;
+        if (job_.highest > casterLimit(light)) {
+            below_ = clipAtHeight({job_.inClip, job_.casters.indices}, casterLimit(light), KeepSide::below);
+            points = below_.vertices;
+            indices_ = below_.indices;
         }
         const Plane plane{{0, 0, 1}, 0};
-        const ProjectionRows rows = planeShadowMatrix(plane, lightToClip(result_.grid, light));
-        sample.vertices.resize(points->size());
-        lightingPasses().projectPoints(profile_.vertex, rows, *points, sample.vertices);
-        for (ClipVertex& v : sample.vertices) v.z = depth * v.w;
+        const ProjectionRows rows = planeShadowMatrix(plane, lightToClip(job_.grid, light));
+        vertices_.resize(points.size());
+        lightingPasses().projectPoints(job_.vertex, rows, points, vertices_);
+        for (ClipVertex& v : vertices_) v.z = depth * v.w;
     }
 
-    // Row by row; the samples of a texel are planes of the stencil.
-    void addCounts() {
-        parallelFor(static_cast<size_t>(result_.blocked.height()), raster_.threads, [&](size_t y) {
-            const auto counts = result_.blocked.row(static_cast<int>(y));
-            for (int s = 0; s < target_.format.samples; s++) {
-                const auto stencil = std::as_const(target_).stencil.row(static_cast<int>(y), s);
-                for (size_t x = 0; x < counts.size(); x++) counts[x] += stencil[x];
-            }
-        });
-    }
-
-    const PlanarCasters& casters_;
-    double highest_;
-    BlockedSamples& result_;
-    const Profile& profile_;
+    const CountJob& job_;
     RasterOptions raster_;
     RenderTarget target_;
-    std::vector<glm::dvec3> inClip_;
     DrawState state_;
-    std::vector<SampleDraw> draws_;
+    PlanarCasters below_;
+    std::vector<ClipVertex> vertices_;
+    std::span<const uint32_t> indices_;
+    int drawn_ = 0;
 };
+
+// Parts of the samples on threads of their own; sums of integers.
+Image<uint32_t> countAll(const CountJob& job, const RasterOptions& raster) {
+    const size_t threads = static_cast<size_t>(raster.threads > 0 ? raster.threads : hardwareThreads());
+    const size_t samples = job.lights.size(), parts = samples < threads ? 1 : threads;
+    RasterOptions inPart = raster;
+    inPart.clear = false;
+    if (parts > 1) inPart.threads = 1;
+    std::vector<Image<uint32_t>> counts(parts);
+    parallelFor(parts, raster.threads, [&](size_t part) {
+        SampleCounter counter(job, inPart);
+        for (size_t i = part * samples / parts; i < (part + 1) * samples / parts; i++) counter.count(i);
+        counts[part] = std::move(counter.counts);
+    });
+    Image<uint32_t>& sum = counts[0];
+    parallelFor(static_cast<size_t>(sum.height()), raster.threads, [&](size_t y) {
+        const auto to = sum.row(static_cast<int>(y));
+        for (size_t part = 1; part < parts; part++) {
+            const auto from = std::as_const(counts[part]).row(static_cast<int>(y));
+            for (size_t x = 0; x < to.size(); x++) to[x] += from[x];
+        }
+    });
+    return std::move(sum);
+}
 
 }  // namespace
 
@@ -245,6 +262,7 @@ BlockedSamples countBlocked(const PlanarReceiver& receiver, const PlanarCasters&
                             const Profile& profile, const RasterOptions& raster) {
     ETALON_CHECK(options.resolution >= kMinPlanarResolution && options.resolution <= kMaxPlanarResolution,
                  "resolution = {}", options.resolution);
+    ETALON_CHECK(lights.size() <= size_t{kMaxLightSamples}, "{} lights", lights.size());
     ETALON_CHECK(options.blurSigma_m >= 0 && std::isfinite(options.blurSigma_m), "blurSigma_m = {}",
                  options.blurSigma_m);
     BlockedSamples result;
@@ -253,11 +271,14 @@ BlockedSamples countBlocked(const PlanarReceiver& receiver, const PlanarCasters&
     result.samples = static_cast<uint32_t>(inFront.size()) * static_cast<uint32_t>(options.samplesPerTexel);
     if (inFront.empty() || casters.indices.empty() || receiver.indices.empty()) return result;
     const double highest = casters.highest();
-    result.grid =
-        fitGrid(receiver, boxOfShadows(receiver, casters, inFront, highest, raster.threads), options);
+    const std::vector<Box> boxes = boxesOfShadows(casters, inFront, highest, raster.threads);
+    result.grid = fitGrid(receiver, boxes, options);
     if (result.grid.width == 0) return result;
-    result.blocked = Image<uint32_t>(result.grid.width, result.grid.height);
-    SampleCounter(casters, highest, result, options.samplesPerTexel, profile, raster).run(inFront);
+    CountJob job{casters,        highest,     inFront,
+                 boxes,          result.grid, formatOf(profile, options.samplesPerTexel),
+                 profile.vertex, {}};
+    for (const glm::dvec3& p : casters.vertices) job.inClip.push_back(toClip(result.grid, p));
+    result.blocked = countAll(job, raster);
     return result;
 }
 

@@ -137,7 +137,7 @@ TEST_CASE("CountsEqualSegmentsToTheLights") {
 }
 
 TEST_CASE("AnyNumberOfSamplesIsCountedOncePerTexel") {
-    // More than a round of the stencil holds; a closed box covers each texel several times.
+    // A closed box covers each texel several times.
     Casters casters;
     casters.addBox({-0.2f, 0.5f, -0.2f}, {0.2f, 0.9f, 0.2f});
     PlanarShadowOptions options;
