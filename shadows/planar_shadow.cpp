@@ -115,7 +115,9 @@ PlanarGrid fitGrid(const PlanarReceiver& receiver, const std::vector<Box>& boxes
     }
     // Two texels around the box, one that rounding to the grid can add; indices of texels stay below 2^30.
     const double extent = std::max(box.highest.x - box.lowest.x, box.highest.y - box.lowest.y);
-    grid.texel_m = roundUpTexel(std::max(extent / (options.resolution - 6), largest * 0x1p-29));
+    const double smallest = std::max(extent / (options.resolution - 6), largest * 0x1p-29);
+    grid.texel_m = options.texel_m > 0 ? options.texel_m : roundUpTexel(smallest);
+    while (grid.texel_m < smallest) grid.texel_m *= 2;
     std::array<int, 2> size{};
     for (int c = 0; c < 2; c++) {
         const double first = std::floor(box.lowest[c] / grid.texel_m) - 2;
@@ -265,6 +267,7 @@ BlockedSamples countBlocked(const PlanarReceiver& receiver, const PlanarCasters&
     ETALON_CHECK(lights.size() <= size_t{kMaxLightSamples}, "{} lights", lights.size());
     ETALON_CHECK(options.blurSigma_m >= 0 && std::isfinite(options.blurSigma_m), "blurSigma_m = {}",
                  options.blurSigma_m);
+    ETALON_CHECK(options.texel_m >= 0 && std::isfinite(options.texel_m), "texel_m = {}", options.texel_m);
     BlockedSamples result;
     result.grid.frame = receiver.frame;
     const std::vector<glm::dvec4> inFront = lightsInFront(receiver.frame, lights);

@@ -40,7 +40,10 @@ inline constexpr int kMinPlanarResolution = 16, kMaxPlanarResolution = 8192;
 inline constexpr double kPlanarBlurReach = 3;
 
 struct PlanarShadowOptions {
-    int resolution = 1024;    // most texels along a side; it is used to at least 3/4 along the longer one
+    int resolution =
+        1024;  // most texels along a side; a fitted texture uses 3/4 or more along the longer one
+    double texel_m =
+        0;  // size of a texel; 0: fitted. Doubled until the texture has no more than `resolution`
     double blurSigma_m = 0;   // standard deviation of the blur on the plane; 0: none
     int samplesPerTexel = 1;  // positions in a texel that a sample of the light is decided at: 1, 4 or 16
     double contact_m = 1e-5;  // heights up to this are on the plane (castersAbove)

@@ -437,6 +437,20 @@ TEST_CASE("SeveralPositionsInATexelAverageTheShadow") {
     }
 }
 
+TEST_CASE("TheSizeOfATexelCanBeGiven") {
+    Casters casters;
+    casters.addSquare(0, 1, 0, 0.2f);
+    PlanarShadowOptions options;
+    options.texel_m = 0.01;
+    const PlanarShadow shadow = shadowOn(groundReceiver(), casters, pointLight(0, 2, 0), options);
+    CHECK(shadow.grid.texel_m == 0.01);
+    CHECK(shadow.grid.width < 90);
+    options.resolution = 64;
+    const PlanarShadow coarse = shadowOn(groundReceiver(), casters, pointLight(0, 2, 0), options);
+    CHECK(coarse.grid.texel_m == 0.02);
+    CHECK(coarse.grid.width <= 64);
+}
+
 TEST_CASE("OptionsOutOfRangeAreRefused") {
     Casters casters;
     casters.addSquare(0, 1, 0, 0.2f);
