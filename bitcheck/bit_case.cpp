@@ -8,6 +8,7 @@ std::vector<BitCase> bitCases() {
     addRasterCases(cases);
     addImageCases(cases);
     addShadingCases(cases);
+    addPlanarCases(cases);
     return cases;
 }
 

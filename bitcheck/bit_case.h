@@ -27,5 +27,6 @@ void addNumericCases(std::vector<BitCase>& cases);
 void addRasterCases(std::vector<BitCase>& cases);
 void addImageCases(std::vector<BitCase>& cases);
 void addShadingCases(std::vector<BitCase>& cases);
+void addPlanarCases(std::vector<BitCase>& cases);
 
 }  // namespace etalon
