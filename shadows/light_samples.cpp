@@ -7,6 +7,36 @@
 #include "numeric/random.h"
 
 namespace etalon {
+namespace {
+
+constexpr double kPi = 0x1.921fb54442d18p+1;
+
+// A direction and two more, right-handed: side x axis = middle.
+struct Axes {
+    glm::dvec3 middle, side, axis;
+};
+
+glm::dvec3 cross(const glm::dvec3& a, const glm::dvec3& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+glm::dvec3 unit(const glm::dvec3& a) {
+    const double length = std::sqrt(a.x * a.x + (a.y * a.y + a.z * a.z));
+    return {a.x / length, a.y / length, a.z / length};
+}
+
+Axes axesAround(const glm::dvec3& direction) {
+    const double square = direction.x * direction.x + (direction.y * direction.y + direction.z * direction.z);
+    ETALON_CHECK(square > 0 && std::isfinite(square), "direction ({}, {}, {})", direction.x, direction.y,
+                 direction.z);
+    Axes axes;
+    axes.middle = unit(direction);
+    const bool upright = axes.middle.y * axes.middle.y > 0.8;
+    axes.side = unit(cross(upright ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0), axes.middle));
+    axes.axis = cross(axes.middle, axes.side);
+    return axes;
+}
+
+}  // namespace
 
 std::vector<glm::dvec2> stratifiedSamples(int count, uint64_t seed) {
     ETALON_CHECK(count >= 1 && count <= kMaxLightSamples, "{} samples", count);
@@ -38,26 +68,27 @@ std::vector<glm::dvec4> lightSamples(const RectangularPatch& patch, int count, u
     return lights;
 }
 
+std::vector<glm::dvec4> lightSamples(const DiscPatch& patch, int count, uint64_t seed) {
+    ETALON_CHECK(patch.radius >= 0, "radius {}", patch.radius);
+    const Axes axes = axesAround(patch.axis);
+    if (count == 1) return {patch.centre};
+    std::vector<glm::dvec4> lights;
+    for (const glm::dvec2& sample : stratifiedSamples(count, seed)) {
+        const double angle_rad = 2.0 * kPi * sample.x, distance = patch.radius * std::sqrt(sample.y);
+        const double a = distance * cosOf(angle_rad), b = distance * sinOf(angle_rad);
+        glm::dvec4 light = patch.centre;
+        for (int c = 0; c < 3; c++) light[c] += a * axes.side[c] + b * axes.axis[c];
+        lights.push_back(light);
+    }
+    return lights;
+}
+
 std::vector<glm::dvec4> lightSamples(const SphericalPatch& patch, int count, uint64_t seed) {
-    const glm::dvec3 d = patch.direction;
-    const double square = d.x * d.x + (d.y * d.y + d.z * d.z);
-    ETALON_CHECK(square > 0 && std::isfinite(square), "direction ({}, {}, {})", d.x, d.y, d.z);
+    const Axes axes = axesAround(patch.direction);
     ETALON_CHECK(patch.radius_m > 0, "radius {}", patch.radius_m);
-    constexpr double kPi = 0x1.921fb54442d18p+1;
     ETALON_CHECK(patch.halfLongitude_rad >= 0 && patch.halfLongitude_rad <= kPi &&
                      patch.halfLatitude_rad >= 0 && patch.halfLatitude_rad <= kPi / 2,
                  "half angles {} and {}", patch.halfLongitude_rad, patch.halfLatitude_rad);
-    // Towards the middle, to the side, and along the axis of the patch's longitudes.
-    const double length = std::sqrt(square);
-    const glm::dvec3 middle(d.x / length, d.y / length, d.z / length);
-    const bool upright = middle.y * middle.y > 0.8;
-    const glm::dvec3 other = upright ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
-    glm::dvec3 side(other.y * middle.z - other.z * middle.y, other.z * middle.x - other.x * middle.z,
-                    other.x * middle.y - other.y * middle.x);
-    const double sideLength = std::sqrt(side.x * side.x + (side.y * side.y + side.z * side.z));
-    side = {side.x / sideLength, side.y / sideLength, side.z / sideLength};
-    const glm::dvec3 axis(middle.y * side.z - middle.z * side.y, middle.z * side.x - middle.x * side.z,
-                          middle.x * side.y - middle.y * side.x);
     const double sinHighest = sinOf(patch.halfLatitude_rad);
     const bool isFar = std::isinf(patch.radius_m);
 
@@ -69,7 +100,8 @@ std::vector<glm::dvec4> lightSamples(const SphericalPatch& patch, int count, uin
         const double along = cosLatitude * cosOf(longitude_rad), across = cosLatitude * sinOf(longitude_rad);
         glm::dvec4 light(0, 0, 0, isFar ? 0 : 1);
         for (int c = 0; c < 3; c++) {
-            const double direction = along * middle[c] + (across * side[c] + sinLatitude * axis[c]);
+            const double direction =
+                along * axes.middle[c] + (across * axes.side[c] + sinLatitude * axes.axis[c]);
             light[c] = isFar ? direction : patch.centre_m[c] + direction * patch.radius_m;
         }
         lights.push_back(light);

@@ -28,6 +28,18 @@ struct RectangularPatch {
 };
 std::vector<glm::dvec4> lightSamples(const RectangularPatch& patch, int count, uint64_t seed);
 
+// A disc around a homogeneous centre: centre + radius r (cos(a) u + sin(a) v) with u and v perpendicular to
+// the axis, in cells of equal area: x of the cell gives the angle, the root of y the distance from the
+// centre. Of a place (w = 1) lengths are in metres; of a direction (w = 0, unit) the radius is the tangent of
+// half the angle that the light subtends. A radius of 0, and one sample: the centre to the bit. axis: not
+// zero; radius >= 0.
+struct DiscPatch {
+    glm::dvec4 centre{0, 0, 0, 1};
+    glm::dvec3 axis{0, 1, 0};
+    double radius = 0;
+};
+std::vector<glm::dvec4> lightSamples(const DiscPatch& patch, int count, uint64_t seed);
+
 // A patch of a sphere around the objects, in spherical coordinates about its middle: longitudes up to
 // halfLongitude_rad to each side of `direction`, latitudes up to halfLatitude_rad, cells of equal area.
 // radius_m infinite: samples are directions, (x, y, z, 0); else places, (x, y, z, 1). direction: towards the

@@ -69,6 +69,25 @@ TEST_CASE("SamplesOfARectangleLieOnIt") {
     CHECK(std::abs(sum.z - 2) < 0.0025);
 }
 
+TEST_CASE("SamplesOfADiscLieOnItInCellsOfEqualArea") {
+    for (const double w : {1.0, 0.0}) {
+        const DiscPatch disc{{1, 5, 2, w}, {0, -3, 4}, 0.5};
+        int inner = 0;
+        for (const glm::dvec4& light : lightSamples(disc, 400, 9)) {
+            const glm::dvec3 d(light.x - 1, light.y - 5, light.z - 2);
+            CHECK(light.w == w);
+            CHECK(std::abs(-3 * d.y + 4 * d.z) < 1e-14);
+            const double square = d.x * d.x + (d.y * d.y + d.z * d.z);
+            CHECK(square <= 0.25 + 1e-14);
+            if (square < 0.125) inner++;
+        }
+        CHECK(inner == 200);
+        CHECK(lightSamples(disc, 1, 9)[0] == disc.centre);
+    }
+    const DiscPatch point{{0.1, 2.3, -0.7, 1}, {0, 0, 1}, 0};
+    for (const glm::dvec4& light : lightSamples(point, 25, 5)) CHECK(light == point.centre);
+}
+
 TEST_CASE("SamplesOfASphericalPatchHaveItsRadiusAndAngles") {
     SphericalPatch patch;
     patch.centre_m = {0.5, 0, 0};

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "lighting/render_view.h"
+#include "shadows/planar_lights.h"
 #include "tests/shadows/planar_scene.h"
 
 using namespace etalon;
@@ -210,6 +211,46 @@ TEST_CASE("PlanarReceiversAreFound") {
         CHECK(q.y == behind.corners_m[2].y);
         CHECK(behind.frame.normal.y == -1);
     }
+}
+
+TEST_CASE("LightsOfASceneCastOnItsPlanes") {
+    // A ground, a wall behind it, a square above; a lamp below the ground lights its lower side.
+    SurfaceScene scene;
+    addObject(scene, rectangle({0, 0, 0}, {2, 0, 0}, {0, 0, -2}), lambertian(0.5));
+    addObject(scene, rectangle({0, 1, -2}, {2, 0, 0}, {0, 1, 0}), lambertian(0.5));
+    addObject(scene, rectangle({0, 0.5f, 0}, {0.3f, 0, 0}, {0, 0, -0.3f}), lambertian(0.5));
+    scene.lights.resize(3);
+    scene.lights[0].kind = LightKind::point;
+    scene.lights[0].position_m = {0, 2, 0.5};
+    scene.lights[1].toLight = {0, 0.6, 0.8};
+    scene.lights[2].kind = LightKind::point;
+    scene.lights[2].position_m = {0, -2, 0};
+    const Profile& profile = *findProfile("f32");
+    const auto placed = placeMeshes(scene, profile.vertex, 1);
+    PlanarLightSettings settings;
+    settings.lightSize_m = 0.2;
+    settings.tangentOfHalfAngle = 0.05;
+    const auto shadowsOf = [&](size_t light, const std::vector<bool>& receivers) {
+        return planarShadowsOf(scene, placed, light, settings, receivers, profile, {1, 64});
+    };
+    const auto lamp = shadowsOf(0, {});
+    // The ground gets the square's shadow; the wall that of the ground's part before it, which is at its
+    // foot, and the square's beyond its front is above nothing.
+    REQUIRE(!lamp.empty());
+    CHECK(lamp[0].instance == 0);
+    CHECK(lamp[0].light == 0);
+    CHECK(shadowAt(lamp[0].shadow, 0, -0.2) == 1);
+    CHECK(shadowAt(lamp[0].shadow, 0, 1) == 0);
+    const auto sun = shadowsOf(1, {true, false, false});
+    REQUIRE(sun.size() == 1);
+    // 0.5 m high: 2/3 m further back.
+    CHECK(shadowAt(sun[0].shadow, 0, -0.667) == 1);
+    CHECK(shadowAt(sun[0].shadow, 0, 0) == 0);
+    CHECK(shadowsOf(1, {false, false, false}).empty());
+    // From below nothing stands between the lamp and the ground.
+    CHECK(shadowsOf(2, {true, false, false}).empty());
+    scene.lights[0].position_m.x = std::numeric_limits<double>::quiet_NaN();
+    CHECK(shadowsOf(0, {}).empty());
 }
 
 TEST_CASE("ShadingMultipliesEachLightWithWhatReachesThePlane") {
