@@ -234,18 +234,20 @@ TEST_CASE("LightsOfASceneCastOnItsPlanes") {
         return planarShadowsOf(scene, placed, light, settings, receivers, profile, {1, 64});
     };
     const auto lamp = shadowsOf(0, {});
-    // The ground gets the square's shadow; the wall that of the ground's part before it, which is at its
-    // foot, and the square's beyond its front is above nothing.
+    const auto at = [](const PlanarShadow& shadow, const glm::dvec3& p) {
+        const glm::dvec3 q = shadow.grid.frame.toFrame(p);
+        return shadowAt(shadow, q.x, q.y);
+    };
     REQUIRE(!lamp.empty());
     CHECK(lamp[0].instance == 0);
     CHECK(lamp[0].light == 0);
-    CHECK(shadowAt(lamp[0].shadow, 0, -0.2) == 1);
-    CHECK(shadowAt(lamp[0].shadow, 0, 1) == 0);
+    CHECK(at(lamp[0].shadow, {0, 0, -0.15}) == 1);
+    CHECK(at(lamp[0].shadow, {0, 0, 1}) == 0);
     const auto sun = shadowsOf(1, {true, false, false});
     REQUIRE(sun.size() == 1);
     // 0.5 m high: 2/3 m further back.
-    CHECK(shadowAt(sun[0].shadow, 0, -0.667) == 1);
-    CHECK(shadowAt(sun[0].shadow, 0, 0) == 0);
+    CHECK(at(sun[0].shadow, {0, 0, -0.667}) == 1);
+    CHECK(at(sun[0].shadow, {0, 0, 0}) == 0);
     CHECK(shadowsOf(1, {false, false, false}).empty());
     // From below nothing stands between the lamp and the ground.
     CHECK(shadowsOf(2, {true, false, false}).empty());
