@@ -212,7 +212,7 @@ class SampleCounter {
             points = below_.vertices;
             indices_ = below_.indices;
         }
-        const Plane plane{{0, 0, 1}, 0};
+        const ShadowPlane plane{{0, 0, 1}, 0};
         const ProjectionRows rows = planeShadowMatrix(plane, lightToClip(job_.grid, light));
         vertices_.resize(points.size());
         lightingPasses().projectPoints(job_.vertex, rows, points, vertices_);

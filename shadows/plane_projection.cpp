@@ -19,7 +19,7 @@ glm::dvec3 xyz(const glm::dvec4& v) { return {v.x, v.y, v.z}; }
 
 }  // namespace
 
-ProjectionRows planeShadowMatrix(const Plane& plane, const glm::dvec4& light) {
+ProjectionRows planeShadowMatrix(const ShadowPlane& plane, const glm::dvec4& light) {
     const glm::dvec4 p(plane.normal, plane.offset_m);
     const double lightHeight = dot(plane.normal, xyz(light)) + plane.offset_m * light.w;
     ProjectionRows rows;
@@ -77,7 +77,7 @@ glm::dvec3 PlaneFrame::toWorld(double s_m, double t_m) const {
             origin_m.z + (s.z * s_m + t.z * t_m)};
 }
 
-Plane PlaneFrame::plane() const { return {normal, -dot(normal, origin_m)}; }
+ShadowPlane PlaneFrame::plane() const { return {normal, -dot(normal, origin_m)}; }
 
 PlaneFrame planeFrame(const glm::dvec3& origin_m, const glm::dvec3& normal) {
     const double square = dot(normal, normal);

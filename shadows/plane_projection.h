@@ -12,7 +12,7 @@ namespace etalon {
 
 // The points x with normal . x + offset_m = 0. normal: unit, towards the side that is lit and that casters
 // are on.
-struct Plane {
+struct ShadowPlane {
     glm::dvec3 normal{0, 1, 0};
     double offset_m = 0;
 };
@@ -27,7 +27,7 @@ using ProjectionRows = std::array<glm::dvec4, 4>;
 // 0, points beyond the light (anti-shadows); shadows/planar_casters.h cuts both off. All zero when the light
 // is in the plane and a place on it. Each element has the order of operations of the formula, with n . l =
 // n.x l.x + (n.y l.y + n.z l.z).
-ProjectionRows planeShadowMatrix(const Plane& plane, const glm::dvec4& light);
+ProjectionRows planeShadowMatrix(const ShadowPlane& plane, const glm::dvec4& light);
 
 // A parallelogram: corner + a edgeX + b edgeY with a and b in [0, 1].
 struct Parallelogram {
@@ -55,7 +55,7 @@ struct PlaneFrame {
     glm::dvec3 toFrame(const glm::dvec3& point) const;
     glm::dvec4 toFrame(const glm::dvec4& light) const;
     glm::dvec3 toWorld(double s_m, double t_m) const;
-    Plane plane() const;
+    ShadowPlane plane() const;
 };
 
 // The frame of a plane around a point of it: s is world +X laid into the plane (+Z where the normal is within

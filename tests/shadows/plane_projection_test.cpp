@@ -21,14 +21,14 @@ glm::dvec3 randomVector(Random& random, double magnitude) {
     return v;
 }
 
-Plane randomPlane(Random& random) {
+ShadowPlane randomPlane(Random& random) {
     const glm::dvec3 n = randomVector(random, 1);
     const double length = std::sqrt(dot(n, n));
     return {{n.x / length, n.y / length, n.z / length}, random.uniform(-2, 2)};
 }
 
 // Where the ray from a light through p meets the plane.
-glm::dvec3 rayMeetsPlane(const Plane& plane, const glm::dvec4& light, const glm::dvec3& p) {
+glm::dvec3 rayMeetsPlane(const ShadowPlane& plane, const glm::dvec4& light, const glm::dvec3& p) {
     const glm::dvec3 l(light.x, light.y, light.z);
     const glm::dvec3 way =
         light.w == 0 ? glm::dvec3(-l.x, -l.y, -l.z) : glm::dvec3(p.x - l.x, p.y - l.y, p.z - l.z);
@@ -57,7 +57,7 @@ TEST_CASE("OnTheGroundTheMatrixIsThePapersFirstOne") {
 TEST_CASE("TheMatrixHasThePapersElements") {
     Random random(1);
     for (int i = 0; i < 100; i++) {
-        const Plane plane = randomPlane(random);
+        const ShadowPlane plane = randomPlane(random);
         const glm::dvec3 l = randomVector(random, 4), n = plane.normal;
         const double d = plane.offset_m, nl = dot(n, l);
         const ProjectionRows m = planeShadowMatrix(plane, glm::dvec4(l, 1));
@@ -76,7 +76,7 @@ TEST_CASE("ShadowsAreWhereTheRayMeetsThePlane") {
     int checked = 0;
     double worst = 0;
     for (int i = 0; i < 20000; i++) {
-        const Plane plane = randomPlane(random);
+        const ShadowPlane plane = randomPlane(random);
         const glm::dvec3 p = randomVector(random, 4);
         const bool isDirection = random.chance(0.5);
         const glm::dvec4 light(randomVector(random, isDirection ? 1 : 8), isDirection ? 0 : 1);
@@ -113,7 +113,7 @@ TEST_CASE("TheUnitBoxHasTheSameShadowsAndTellsWhatCasts") {
         const bool isDirection = random.chance(0.5);
         glm::dvec4 light(randomVector(random, isDirection ? 1 : 8), isDirection ? 0 : 1);
         // The plane that faces the light.
-        Plane plane{{n.x / area, n.y / area, n.z / area}, 0};
+        ShadowPlane plane{{n.x / area, n.y / area, n.z / area}, 0};
         plane.offset_m = -dot(plane.normal, receiver.corner);
         const glm::dvec3 l(light.x, light.y, light.z);
         double lightHeight = dot(plane.normal, l) + plane.offset_m * light.w;
@@ -174,7 +174,7 @@ TEST_CASE("FramesAreSeenFromTheFront") {
         const glm::dvec3 back = f.toWorld(q.x, q.y);
         CHECK(largestDifference(p, {back.x + q.z * f.normal.x, back.y + q.z * f.normal.y,
                                     back.z + q.z * f.normal.z}) < 1e-14);
-        const Plane plane = f.plane();
+        const ShadowPlane plane = f.plane();
         CHECK(std::abs(dot(plane.normal, p) + plane.offset_m - q.z) < 1e-14);
     }
     const PlaneFrame ground = planeFrame({0, 0, 0}, {0, 2, 0});
