@@ -91,16 +91,16 @@ TEST_CASE("EveryProfileReadsTheShadowWithinItsPrecision") {
         positions.emplace_back(-0.8 + 1.6 * ((i * 37) % 100) / 100.0, 0, -0.8 + 1.6 * ((i * 61) % 90) / 90.0);
     const LitPoints points = pointsOn(positions, 0);
     const auto truth = lookUp(PlanarVisibility(entryOf(shadow), *findProfile("truth")), points);
-    for (const auto& [name, bound] : kBounds) {
-        const auto found = lookUp(PlanarVisibility(entryOf(shadow), *findProfile(name)), points);
+    for (const auto& entry : kBounds) {
+        const auto found = lookUp(PlanarVisibility(entryOf(shadow), *findProfile(entry.profile)), points);
         double worst = 0;
         for (size_t i = 0; i < found.size(); i++) {
             CHECK(found[i] >= 0);
             CHECK(found[i] <= 1);
             worst = std::max(worst, std::abs(found[i] - truth[i]));
         }
-        INFO(std::string(name));
-        CHECK(worst <= bound);
+        INFO(std::string(entry.profile));
+        CHECK(worst <= entry.bound);
     }
 }
 
