@@ -108,7 +108,7 @@ class SceneRenderer {
             progress("shadow map");
             ShadowMapSettings settings = *scene_.lights[l].shadowMap;
             settings.seed = scene_.render.seed;
-            if (!shadows_) shadows_.emplace(scene_.lights.size());
+            if (!shadows_) shadows_.emplace(surfaces_.lights.size());
             shadows_->set(
                 l, renderShadowMap(surfaces_, placed_, shadowFits_[l], settings, profile_, options_.raster),
                 profile_, options_.raster.threads);
@@ -120,7 +120,7 @@ class SceneRenderer {
         VolumeShadowOptions options;
         options.samples = samples;
         options.excluded = excluded;
-        options.casters.emplace(scene_.lights.size());
+        options.casters.emplace(surfaces_.lights.size());
         bool any = false;
         for (size_t l = 0; l < scene_.lights.size(); l++) {
             if (!result_.plan.shadowVolumes[l]) continue;

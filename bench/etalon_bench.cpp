@@ -12,8 +12,6 @@
 #include "bench/rows.h"
 #include "numeric/isa.h"
 #include "raster/blur.h"
-#include "shadows/ambient_occlusion.h"
-#include "shadows/volume_shadows.h"
 
 namespace etalon::bench {
 
@@ -34,27 +32,8 @@ void add(const std::string& name, const Way& way, std::function<void(benchmark::
 
 namespace {
 
-// Bytes of a position or normal, an index, and what visibility stores per sample: depth, id and stencil.
-constexpr size_t kVector_bytes = 12, kIndex_bytes = 4, kSample_bytes = 9;
-constexpr size_t kDistance_bytes = 4;
-
-// Positions and indices read.
-size_t meshBytes(const Workload& w) {
-    return w.mesh().positions.size() * kVector_bytes + w.mesh().indices.size() * kIndex_bytes;
-}
-size_t normalBytes(const Workload& w) { return w.mesh().normals.size() * kVector_bytes; }
-size_t pixelsOf(const View& view) {
-    return static_cast<size_t>(view.width) * static_cast<size_t>(view.height);
-}
-
 std::string shadedPass(int lights, int samples) {
     return "lights" + std::to_string(lights) + (samples == 4 ? "-msaa4" : "");
-}
-
-double coveredPixels(const VisibleScene& visible) {
-    const auto ids = visible.target.id.plane(0);
-    return static_cast<double>(ids.size()) -
-           static_cast<double>(std::count(ids.begin(), ids.end(), kNoTriangle));
 }
 
 // Touches the mesh, and depth, id and stencil of each sample.
@@ -91,104 +70,6 @@ void addShaded(const std::string& name, int lights, const Way& way, int samples 
             drawDepth(visible, work, samples, options);
             return shadeVisible(work, visible, options);
         });
-    });
-}
-
-// Touches the mesh's positions and indices, depth, id and stencil of each texel, and the texels once more.
-void addShadowMap(const std::string& name, const Way& way) {
-    add("shadow-map/" + name, way, [=](benchmark::State& state) {
-        const Workload& w = workload(name, 1);
-        const PlacedWorkload work = place(w, way.profile);
-        const size_t texels = size_t{kShadowMapSize} * kShadowMapSize;
-        const Amount amount{.triangles = static_cast<double>(w.triangles()),
-                            .pixels = static_cast<double>(texels),
-                            .bytes_touched = meshBytes(w) + texels * (kSample_bytes + sizeof(float))};
-        const RasterOptions options{.threads = way.threads};
-        measure(state, amount,
-                [&] { return readyForLookUp(work, drawShadowMap(work, options), options).casts(0); });
-    });
-}
-
-// 4 x 4 taps at each visible point. Touches position and two normals of a point (double), its visibility, and
-// a texel.
-void addPcf(const std::string& name, const Way& way) {
-    add("pcf/" + name, way, [=](benchmark::State& state) {
-        const Workload& w = workload(name, 1);
-        const PlacedWorkload work = place(w, way.profile);
-        const RasterOptions options{.threads = way.threads};
-        const ShadowMaps maps = readyForLookUp(work, drawShadowMap(work, options), options);
-        const LitPoints points = visiblePoints(work, drawDepth(work, 1, options));
-        const Amount amount{.pixels = static_cast<double>(points.size()),
-                            .bytes_touched = points.size() * (10 * sizeof(double) + sizeof(float))};
-        std::vector<double> visibility(points.size());
-        measure(state, amount, [&] {
-            maps.find(0, points, visibility);
-            return visibility.data();
-        });
-    });
-}
-
-// Map, look-ups and shading with one light: a frame.
-void addShadowedFrame(const std::string& name, const Way& way) {
-    add("lights1-pcf/" + name, way, [=](benchmark::State& state) {
-        const Workload& w = workload(name, 1);
-        const PlacedWorkload work = place(w, way.profile);
-        const RasterOptions options{.threads = way.threads};
-        VisibleScene visible = drawDepth(work, 1, options);
-        const Amount amount{.triangles = static_cast<double>(w.triangles()),
-                            .pixels = coveredPixels(visible),
-                            .bytes_touched = 2 * meshBytes(w) + normalBytes(w) +
-                                             pixelsOf(w.view) * (kSample_bytes + kRadiance_bytes)};
-        measure(state, amount, [&] {
-            drawDepth(visible, work, 1, options);
-            const ShadowMaps maps = readyForLookUp(work, drawShadowMap(work, options), options);
-            return shadeVisible(work, visible, maps, options);
-        });
-    });
-}
-
-// Topology, silhouette and the stencil of one light with z-fail; the depths of the view are drawn first.
-// Touches the mesh, and depth, id and stencil of each pixel once for the depths and once for the volumes.
-void addVolumes(const std::string& name, const Way& way) {
-    add("shadow-volumes/" + name, way, [=](benchmark::State& state) {
-        const Workload& w = workload(name, 1);
-        const PlacedWorkload work = place(w, way.profile);
-        const RasterOptions options{.threads = way.threads};
-        const Amount amount{.triangles = static_cast<double>(w.triangles()),
-                            .pixels = pixelsOf(w.view),
-                            .bytes_touched = 2 * (meshBytes(w) + pixelsOf(w.view) * kSample_bytes)};
-        measure(state, amount, [&] {
-            return VolumeShadows(w.scene, work.placed, w.view, *work.profile, {}, options).casts(0);
-        });
-    });
-}
-
-// Pixels count points: the vertices of the mesh, each looked up from half of the directions.
-constexpr int kOcclusionDirections = 64, kOcclusionMapSize = 512, kHemicubePoints = 64, kHemicubeSize = 64;
-void addDirectionalOcclusion(const std::string& name, const Way& way) {
-    add("occlusion-directions64/" + name, way, [=](benchmark::State& state) {
-        const PlacedWorkload work = place(workload(name, 1), way.profile);
-        const auto points = occlusionPointsOf(work.placed[0]);
-        DirectionalOptions options;
-        options.directions = kOcclusionDirections;
-        options.mapSize = kOcclusionMapSize;
-        options.raster.threads = way.threads;
-        const auto count = static_cast<double>(points.size());
-        measure(state, {.pixels = count, .bytes_touched = count * sizeof(OcclusionPoint)},
-                [&] { return directionalOcclusion(work.placed, points, options)[0].open; });
-    });
-}
-void addHemicubeOcclusion(const std::string& name, const Way& way) {
-    add("occlusion-hemicube64/" + name, way, [=](benchmark::State& state) {
-        const PlacedWorkload work = place(workload(name, 1), way.profile);
-        auto points = occlusionPointsOf(work.placed[0]);
-        points.resize(kHemicubePoints);
-        HemicubeOptions options;
-        options.size = kHemicubeSize;
-        options.threads = way.threads;
-        const auto count = static_cast<double>(points.size());
-        measure(state, {.pixels = count, .bytes_touched = count * sizeof(OcclusionPoint)},
-                [&] { return hemicubeOcclusion(work.placed, points, options)[0].open; });
     });
 }
 
@@ -240,14 +121,7 @@ void addAll() {
         for (const char* name : {"1k", "70k", "870k"}) addShaded(name, 64, way);
         addDepth("70k", way, 4);
         addShaded("70k", 1, way, 4);
-        for (const char* name : {"70k", "870k"}) {
-            addShadowMap(name, way);
-            addShadowedFrame(name, way);
-        }
-        addPcf("70k", way);
-        addVolumes("70k", way);
-        addDirectionalOcclusion("70k", way);
-        addHemicubeOcclusion("1k", way);
+        addShadowRows(way);
         addFill(way);
         addCube(way);
         addBlur(way);
@@ -256,7 +130,7 @@ void addAll() {
     for (const IsaLevel level : usableIsaLevels()) {
         const Way way{.level = level};
         addDepth("70k", way);
-        addPcf("70k", way);
+        addShadowRowsOfLevel(way);
         addShaded("1k-small", 64, way);
         addBlur(way);
         addProbeRowsOfLevel(way);
@@ -264,7 +138,7 @@ void addAll() {
     addShaded("1k-small", 64, {});
     for (const char* profile : {"f64", "r300-fp24", "nv40-fp16", "fp16", "bf16"}) {
         addShaded("70k", 1, {.profile = profile});
-        addPcf("70k", {.profile = profile});
+        addShadowRowsOfLevel({.profile = profile});
         addShaded("1k-small", 1, {.profile = profile});
         addProbeRowsOfProfile({.profile = profile});
     }

@@ -4,6 +4,7 @@
 #include <random>
 
 #include "numeric/check.h"
+#include "shadows/light_samples.h"
 
 namespace etalon::bench {
 namespace {
@@ -114,6 +115,30 @@ CubeRenderRequest cubeRequest() {
 
 CubeRender drawCube(const PlacedWorkload& work, const RasterOptions& options) {
     return renderCubeMap(work.workload->scene, work.placed, cubeRequest(), nullptr, *work.profile, options);
+}
+
+PlanarWork planarWork(const PlacedWorkload& work, int samples) {
+    constexpr double kGround_m = -1.3, kHalfSize_m = 3;
+    PlanarWork result;
+    result.receiver.frame = planeFrame({0, kGround_m, 0}, {0, 1, 0});
+    result.receiver.corners_m = {{-kHalfSize_m, -kHalfSize_m},
+                                 {kHalfSize_m, -kHalfSize_m},
+                                 {kHalfSize_m, kHalfSize_m},
+                                 {-kHalfSize_m, kHalfSize_m}};
+    result.receiver.indices = {0, 1, 2, 0, 2, 3};
+    const PlacedMesh* mesh = &work.placed[0];
+    result.casters = castersAbove(result.receiver.frame, {&mesh, 1}, PlanarShadowOptions().contact_m);
+    const RectangularPatch patch{{1, 4, 0.5}, {0.5, 0, 0}, {0, 0, 0.5}};
+    result.lights = lightSamples(patch, samples, 1);
+    result.profile = work.profile;
+    return result;
+}
+
+PlanarShadow drawPlanarShadow(const PlanarWork& work, double blur_m, const RasterOptions& options) {
+    PlanarShadowOptions planar;
+    planar.resolution = kPlanarResolution;
+    planar.blurSigma_m = blur_m;
+    return planarShadow(work.receiver, work.casters, work.lights, planar, *work.profile, options);
 }
 
 Image<float> blurInput() { return randomImage(kBlurSize, kBlurSize, 1); }

@@ -5,6 +5,7 @@
 #include "lighting/render_view.h"
 #include "probes/convert.h"
 #include "shadows/shadow_maps.h"
+#include "shadows/planar_shadow.h"
 
 namespace etalon::bench {
 
@@ -40,6 +41,19 @@ LitPoints visiblePoints(const PlacedWorkload& work, const VisibleScene& visible)
 inline constexpr int kCubeSize = 512;
 CubeRenderRequest cubeRequest();
 CubeRender drawCube(const PlacedWorkload& work, const RasterOptions& options);
+
+// A workload's knot above the plane of its ground, under a square light of 1 m: planar shadows of `samples`
+// samples, fitted into kPlanarResolution^2 texels. The blur's standard deviation is kPlanarBlur_m, or 0.
+inline constexpr int kPlanarResolution = 1024;
+inline constexpr double kPlanarBlur_m = 0.05;
+struct PlanarWork {
+    PlanarReceiver receiver;
+    PlanarCasters casters;
+    std::vector<glm::dvec4> lights;
+    const Profile* profile = nullptr;
+};
+PlanarWork planarWork(const PlacedWorkload& work, int samples);
+PlanarShadow drawPlanarShadow(const PlanarWork& work, double blur_m, const RasterOptions& options);
 
 // The blur that is measured: one channel of kBlurSize^2 random pixels.
 inline constexpr int kBlurSize = 1024, kBlurRadius = 10;

@@ -13,6 +13,7 @@ std::vector<BitCase> bitCases() {
     addIrradianceCases(cases);
     addShadowCases(cases);
     addVolumeCases(cases);
+    addPlanarCases(cases);
     return cases;
 }
 

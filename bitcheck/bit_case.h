@@ -32,5 +32,6 @@ void addShadingCases(std::vector<BitCase>& cases);
 void addIrradianceCases(std::vector<BitCase>& cases);
 void addShadowCases(std::vector<BitCase>& cases);
 void addVolumeCases(std::vector<BitCase>& cases);
+void addPlanarCases(std::vector<BitCase>& cases);
 
 }  // namespace etalon

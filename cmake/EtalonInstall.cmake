@@ -3,7 +3,7 @@ include(CMakePackageConfigHelpers)
 
 set(etalon_installed_targets etalon_numeric_flags etalon_numeric etalon_truth etalon_raster etalon_probes etalon_lighting etalon_shadows
                              etalon_bitcheck)
-set(etalon_installed_folders numeric raster probes lighting bitcheck)
+set(etalon_installed_folders numeric raster probes lighting shadows bitcheck)
 if(ETALON_APP)
   list(APPEND etalon_installed_targets etalon_ar)
   list(APPEND etalon_installed_folders ar)

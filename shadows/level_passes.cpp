@@ -5,16 +5,18 @@
 namespace etalon {
 
 ETALON_DECLARE_ARITHMETICS(LookupPasses, lookupPasses)
+ETALON_DECLARE_ARITHMETICS(PlanarPasses, planarPasses)
 
 namespace ETALON_LEVEL {
 namespace {
 
 ETALON_PASSES_IN_LANES(LookupPasses, lookupPasses)
+ETALON_PASSES_IN_LANES(PlanarPasses, planarPasses)
 
 }  // namespace
 
 const ShadowPasses& shadowPasses() {
-    static const ShadowPasses passes = {lookupPasses_inLanes};
+    static const ShadowPasses passes = {lookupPasses_inLanes, planarPasses_inLanes};
     return passes;
 }
 

@@ -2,12 +2,14 @@
 #pragma once
 
 #include "shadows/lookup_passes.h"
+#include "shadows/planar_passes.h"
 
 namespace etalon {
 
 // All arithmetics but truth, which has no lanes.
 struct ShadowPasses {
     LookupPasses (*lookup)(FragmentArithmetic arithmetic);
+    PlanarPasses (*planar)(FragmentArithmetic arithmetic);
 };
 
 // Those of the active level.

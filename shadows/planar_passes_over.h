@@ -1,0 +1,58 @@
+// Passes of planar shadows over a number type, for the sources that instantiate them.
+#pragma once
+
+#include <algorithm>
+
+#include "numeric/number_lanes.h"
+#include "raster/blur.h"
+#include "shadows/planar_passes.h"
+
+namespace etalon {
+
+template <class T>
+struct PlanarKernel {
+#include "numeric/kernel_scope.inc"
+#include "raster/texture_scope.inc"
+#include "numeric/kernels/vector.glsl"
+#include "raster/kernels/sampler.glsl"
+#include "shadows/kernels/planar_shadow.glsl"
+};
+
+template <class T>
+void planarVisibilityOver(const PlanarShadow& shadow, const PlanarSampling& sampling, const LitPoints& points,
+                          std::span<const uint32_t> listed, std::span<double> visibility) {
+    using Kernel = PlanarKernel<T>;
+    using vec3 = typename Kernel::vec3;
+    Kernel kernel;
+    const auto number = [](const glm::dvec3& v) { return vec3(T(v.x), T(v.y), T(v.z)); };
+    const auto perTexel = [&](const glm::dvec3& axis) {
+        const double t = shadow.grid.texel_m;
+        return number({axis.x / t, axis.y / t, axis.z / t});
+    };
+    const TextureView texture(shadow.shadow);
+    typename Kernel::PlanarMap map;
+    map.corner = number(shadow.grid.toWorld(0, 0));
+    map.perColumn = perTexel(shadow.grid.frame.s);
+    map.perRow = perTexel(shadow.grid.frame.t);
+    map.width = shadow.grid.width, map.height = shadow.grid.height;
+    map.filterMode = static_cast<int>(sampling.filter);
+    map.fractionBits = sampling.fractionBits;
+    forEachLaneGroup<NumberTraits<T>::lanes>(listed.size(), [&](size_t first, int active) {
+        const auto coordinate = [&](size_t c) {
+            return generateNumber<T>([&](int lane) {
+                return points.position_m[c][listed[first + static_cast<size_t>(std::min(lane, active - 1))]];
+            });
+        };
+        const T value =
+            kernel.planarVisibility(texture, vec3(coordinate(0), coordinate(1), coordinate(2)), map);
+        for (int i = 0; i < active; i++)
+            visibility[listed[first + static_cast<size_t>(i)]] = numberLane(value, i);
+    });
+}
+
+template <class T>
+PlanarPasses planarPassesOver() {
+    return {blurGaussian<T>, planarVisibilityOver<T>};
+}
+
+}  // namespace etalon

@@ -1,0 +1,81 @@
+#include "shadows/planar_visibility.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "numeric/check.h"
+#include "numeric/parallel.h"
+
+namespace etalon {
+namespace {
+
+PlanarSampling samplingOf(const Profile& profile) {
+    return {profile.textureFilter, profile.textureFractionBits};
+}
+
+}  // namespace
+
+PlanarVisibility::PlanarVisibility(std::vector<Entry> entries, const Profile& profile)
+    : entries_(std::move(entries)), profile_(&profile) {}
+
+bool PlanarVisibility::casts(size_t light) const {
+    return std::any_of(entries_.begin(), entries_.end(), [&](const Entry& entry) {
+        return entry.light == light && !entry.shadow.shadow.empty();
+    });
+}
+
+void PlanarVisibility::find(size_t light, const LitPoints& points, std::span<double> visibility) const {
+    std::fill(visibility.begin(), visibility.end(), 1.0);
+    const PlanarPasses passes = planarPasses(profile_->fragment);
+    std::vector<uint32_t> listed;
+    std::vector<double> ofEntry(points.size());
+    for (const Entry& entry : entries_) {
+        if (entry.light != light || entry.shadow.shadow.empty()) continue;
+        listed.clear();
+        for (uint32_t i = 0; i < points.size(); i++)
+            if (points.instance[i] == entry.instance) listed.push_back(i);
+        passes.visibility(entry.shadow, samplingOf(*profile_), points, listed, ofEntry);
+        for (const uint32_t i : listed) visibility[i] *= ofEntry[i];
+    }
+}
+
+Image<float> composeShadows(const PlanarReceiver& receiver, const PlanarGrid& grid,
+                            std::span<const WeightedShadow> lights, const Profile& profile,
+                            const RasterOptions& raster) {
+    Image<float> result(grid.width, grid.height);
+    if (result.empty()) return result;
+    double total = 0;
+    for (const WeightedShadow& light : lights) {
+        ETALON_CHECK(light.irradiance >= 0 && light.irradiance < 0x1p100, "irradiance {}", light.irradiance);
+        total += light.irradiance;
+    }
+    const PlanarPasses passes = planarPasses(profile.fragment);
+    const Image<uint8_t> mask = receiverMask(receiver, grid, profile, raster);
+    parallelFor(static_cast<size_t>(grid.height), raster.threads, [&](size_t row) {
+        const int y = static_cast<int>(row);
+        const auto width = static_cast<size_t>(grid.width);
+        LitPoints points;
+        points.instance.assign(width, 0);
+        for (auto& component : points.position_m) component.resize(width);
+        for (size_t x = 0; x < width; x++) {
+            const glm::dvec3 p = grid.toWorld(static_cast<double>(x) + 0.5, y + 0.5);
+            for (int c = 0; c < 3; c++) points.position_m[static_cast<size_t>(c)][x] = p[c];
+        }
+        std::vector<uint32_t> listed(width);
+        std::iota(listed.begin(), listed.end(), 0u);
+        // What is taken away, so that nothing remains exactly 1.
+        std::vector<double> taken(width, 0), visibility(width);
+        for (const WeightedShadow& light : lights) {
+            if (light.shadow->shadow.empty()) continue;
+            passes.visibility(*light.shadow, samplingOf(profile), points, listed, visibility);
+            for (size_t x = 0; x < width; x++) taken[x] += light.irradiance * (1.0 - visibility[x]);
+        }
+        for (size_t x = 0; x < width; x++) {
+            const bool lit = mask.at(static_cast<int>(x), y) == 0 || !(total > 0);
+            result.at(static_cast<int>(x), y) = lit ? 1.0f : static_cast<float>(1.0 - taken[x] / total);
+        }
+    });
+    return result;
+}
+
+}  // namespace etalon
