@@ -333,7 +333,8 @@ TEST_CASE("SnappedTexelsStayWhereTheyAre") {
     }
 }
 
-// Narrow formats: nothing is outside [0, 1], and nothing is not a number.
+// Narrow formats: nothing is outside [0, 1], and nothing is not a number; also where they cannot tell texels
+// apart.
 TEST_CASE("EveryProfileGivesFractions") {
     const SurfaceScene scene = groundAnd(tile({0, 1, 0}, 1));
     const LitPoints points = gridOn(0, -1.9, 1.9, 10);
@@ -349,4 +350,10 @@ TEST_CASE("EveryProfileGivesFractions") {
                 r.settings.lightSize_m = 0.1;
                 for (const double v : visibilityOf(scene, light, points, r)) CHECK((v >= 0 && v <= 1));
             }
+    for (const ShadowFilter filter : {ShadowFilter::pcf, ShadowFilter::disc}) {
+        MapRequest r = request(2000, ShadowDepth::d16);
+        r.profile = "bf16";
+        r.settings.filter = filter;
+        for (const double v : visibilityOf(scene, sun({0.1, 1, 0}), points, r)) CHECK((v >= 0 && v <= 1));
+    }
 }
