@@ -85,6 +85,7 @@ class ShadowLookupOf final : public ShadowLookup {
     }
 
     void fillPlane(size_t layer, int threads);
+    bool unormRow(const uint32_t* stored, Stored* line) const;
     const Stored* texel(int layer, int x, int y) const {
         return planes_[static_cast<size_t>(layer)].texels.data() +
                static_cast<ptrdiff_t>(y + pad_) * stride_ + (x + pad_);
@@ -201,6 +202,7 @@ void ShadowLookupOf<T>::fillPlane(size_t layer, int threads) {
             return;
         }
         const uint32_t* stored = &from.stored.at(0, y);
+        if (unormRow(stored, line)) return;
         if constexpr (std::is_same_v<Stored, float>)
             if (format == DepthFormat::d32f) {
                 std::memcpy(line, stored, static_cast<size_t>(width) * sizeof(float));
@@ -213,6 +215,28 @@ void ShadowLookupOf<T>::fillPlane(size_t layer, int threads) {
         else
             convert([&, levels = depthLevels(format)](size_t x) { return stored[x] / levels; });
     });
+}
+
+// A row of UNORM depths where there are lanes of float; the quotient in double, rounded once.
+template <class T>
+bool ShadowLookupOf<T>::unormRow(const uint32_t* stored, Stored* line) const {
+    if constexpr (N > 1 && std::is_same_v<T, Lanes<float, N>>) {
+        const double levels = depthLevels(map_.format());
+        if (levels == 0 || levels_ > 0) return false;
+        // Half the lanes of float fill a register as doubles.
+        constexpr size_t kHalf = N / 2;
+        const auto width = static_cast<size_t>(map_.projection.width);
+        size_t x = 0;
+        for (; x + kHalf <= width; x += kHalf) {
+            Lanes<int32_t, N / 2> integers;
+            std::memcpy(&integers.v, stored + x, sizeof(integers.v));
+            convertLanes<float>(convertLanes<double>(integers) / Lanes<double, N / 2>(levels))
+                .store(line + x);
+        }
+        for (; x < width; x++) line[x] = static_cast<float>(stored[x] / levels);
+        return true;
+    }
+    return false;
 }
 
 template <class T>
