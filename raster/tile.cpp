@@ -484,6 +484,18 @@ GroupMask TileRasterizerOfLevel::winding(std::span<const Piece> pieces, int64_t 
     return covered;
 }
 
+// storedDepth for formats that it computes in double, a register of doubles at a time.
+template <class S, int N>
+[[gnu::always_inline]] inline Lanes<int32_t, N> storedByRegister(DepthFormat format, DepthRounding rounding,
+                                                                 Lanes<S, N> z) {
+    if constexpr (N > kNativeLanes<double> && N > 1) {
+        if (format != DepthFormat::d32f)
+            return joinLanes(storedByRegister(format, rounding, lowerLanes(z)),
+                             storedByRegister(format, rounding, upperLanes(z)));
+    }
+    return storedDepth(format, rounding, z);
+}
+
 // Depth and stencil test and the writes. kPlain: the draw's state isPlain.
 template <class Real, bool kPlain>
 [[gnu::always_inline]] inline void TileRasterizerOfLevel::test(const Piece& piece,
@@ -498,7 +510,7 @@ template <class Real, bool kPlain>
         depth = storedFloatDepth(pieceDepth.at(e));
         passed = covered && depth < stored;
     } else {
-        depth = storedDepth(format_.depth, format_.depthRounding, pieceDepth.at(e));
+        depth = storedByRegister(format_.depth, format_.depthRounding, pieceDepth.at(e));
         passed = covered && compareValues<GroupMask>(state.depthCompare, depth, stored);
         if (state.stencil.enabled) passed = testStencil(piece, group, covered, passed);
     }

@@ -55,6 +55,9 @@ class ShadowLookupOf final : public ShadowLookup {
         std::array<Stored, kChunk> u, v, depth, perU, perV, fractionX, fractionY, centreU, centreV;
     };
 
+    // The columns of a window, N at a time.
+    using WindowColumns = std::array<T, kMaxWindowTaps / N + 1>;
+
     static vec3 constant(const glm::dvec3& v) { return vec3(T(v.x), T(v.y), T(v.z)); }
     static int integerLane(const integer& a, int i) {
         if constexpr (N == 1)
@@ -82,13 +85,14 @@ class ShadowLookupOf final : public ShadowLookup {
     }
 
     void fillPlane(size_t layer, int threads);
+    bool unormRow(const uint32_t* stored, Stored* line) const;
     const Stored* texel(int layer, int x, int y) const {
         return planes_[static_cast<size_t>(layer)].texels.data() +
                static_cast<ptrdiff_t>(y + pad_) * stride_ + (x + pad_);
     }
     void place(const LitPoints& points, size_t first, size_t count, Places& places) const;
-    uint32_t shadowedInRow(const Stored* row, const T& depth, const T& perU, const T& perV, const T& centreU,
-                           const T& dv) const;
+    uint32_t shadowedInRow(const Stored* row, const T& depth, const T& perU, const T& perV,
+                           const WindowColumns& du, const T& dv) const;
     uint32_t compareQuantised(const T& texels, const T& reference) const;
     void findWindow(const Places& places, size_t count, std::span<double> visibility) const;
     void findDisc(const LitPoints& points, size_t first, const Places& places, size_t count,
@@ -102,6 +106,7 @@ class ShadowLookupOf final : public ShadowLookup {
     double levels_ = 0;  // quantised: the texels are integers up to this
     T farthest_{};
     typename K::ShadowSpace space_;
+    WindowColumns columns_;  // 0, 1, 2 ...
     std::vector<Plane> planes_;
     std::vector<glm::dvec2> pattern_;
     PatternTurns turns_;
@@ -113,9 +118,10 @@ ShadowLookupOf<T>::ShadowLookupOf(const ShadowMap& map, int fractionBits, int th
     : map_(map), turns_(map.settings.seed) {
     const ShadowMapSettings& settings = map.settings;
     const ShadowProjection& p = map.projection;
-    const bool isHard = settings.filter == ShadowFilter::hard;
-    windowTaps_ = isHard ? 1 : settings.taps;
-    fractionBits_ = isHard ? 0 : fractionBits;
+    // hard is a window of one point without fractions; disc and soft have none.
+    const bool isWindow = settings.filter == ShadowFilter::pcf;
+    windowTaps_ = isWindow ? settings.taps : 1;
+    fractionBits_ = isWindow ? fractionBits : 0;
     if (settings.reference == ShadowReference::quantised && !map.holdsDistance())
         levels_ = depthLevels(map.format());
     constexpr double kBeyondEveryDistance = 0x1p+60;
@@ -154,6 +160,8 @@ ShadowLookupOf<T>::ShadowLookupOf(const ShadowMap& map, int fractionBits, int th
         nearest_ = map.holdsDistance() ? p.near_m : 0;
     }
 
+    for (size_t part = 0; part < columns_.size(); part++)
+        columns_[part] = generateNumber<T>([&](int i) { return static_cast<double>(part * N) + i; });
     pad_ = 2 * reach + 2;
     stride_ = p.width + 2 * pad_ + N;
     planes_.resize(map.layers.size());
@@ -194,6 +202,7 @@ void ShadowLookupOf<T>::fillPlane(size_t layer, int threads) {
             return;
         }
         const uint32_t* stored = &from.stored.at(0, y);
+        if (unormRow(stored, line)) return;
         if constexpr (std::is_same_v<Stored, float>)
             if (format == DepthFormat::d32f) {
                 std::memcpy(line, stored, static_cast<size_t>(width) * sizeof(float));
@@ -206,6 +215,28 @@ void ShadowLookupOf<T>::fillPlane(size_t layer, int threads) {
         else
             convert([&, levels = depthLevels(format)](size_t x) { return stored[x] / levels; });
     });
+}
+
+// A row of UNORM depths where there are lanes of float; the quotient in double, rounded once.
+template <class T>
+bool ShadowLookupOf<T>::unormRow(const uint32_t* stored, Stored* line) const {
+    if constexpr (N > 1 && std::is_same_v<T, Lanes<float, N>>) {
+        const double levels = depthLevels(map_.format());
+        if (levels == 0 || levels_ > 0) return false;
+        // Half the lanes of float fill a register as doubles.
+        constexpr size_t kHalf = N / 2;
+        const auto width = static_cast<size_t>(map_.projection.width);
+        size_t x = 0;
+        for (; x + kHalf <= width; x += kHalf) {
+            Lanes<int32_t, N / 2> integers;
+            std::memcpy(&integers.v, stored + x, sizeof(integers.v));
+            convertLanes<float>(convertLanes<double>(integers) / Lanes<double, N / 2>(levels))
+                .store(line + x);
+        }
+        for (; x < width; x++) line[x] = static_cast<float>(stored[x] / levels);
+        return true;
+    }
+    return false;
 }
 
 template <class T>
@@ -259,8 +290,10 @@ template <class T>
             const bool isLookedUp = (inFront >> i & 1) != 0 && points.instance[first + j] != kNoInstance &&
                                     planes_[static_cast<size_t>(layer)].isDrawn();
             places.layer[j] = isLookedUp ? layer : kNoLayer;
-            places.x[j] = integerLane(x.first, i);
-            places.y[j] = integerLane(y.first, i);
+            // Narrow formats round positions near the border by more than a texel.
+            const int last = map_.projection.width + pad_ - windowTaps_ - 1;
+            places.x[j] = std::clamp(integerLane(x.first, i), -pad_, last);
+            places.y[j] = std::clamp(integerLane(y.first, i), -pad_, last);
         }
     });
 }
@@ -276,18 +309,20 @@ uint32_t ShadowLookupOf<T>::compareQuantised(const T& texels, const T& reference
     return bits;
 }
 
-// Bit i: texel i of the row is in the way.
+// Bit i: texel i of the row is in the way. du: from the point to the texels' centres, in lanes.
 template <class T>
 [[gnu::always_inline]] inline uint32_t ShadowLookupOf<T>::shadowedInRow(const Stored* row, const T& depth,
                                                                         const T& perU, const T& perV,
-                                                                        const T& centreU, const T& dv) const {
+                                                                        const WindowColumns& du,
+                                                                        const T& dv) const {
     K kernels;
     uint32_t bits = 0;
-    for (int first = 0; first <= windowTaps_; first += N) {
-        const T du = centreU + generateNumber<T>([&](int i) { return static_cast<double>(first + i); });
-        const T reference = kernels.referenceDepth(depth, perU, perV, du, dv, farthest_);
-        const T texels = TexelFetch<T>::contiguous(row + first);
-        bits |= (levels_ > 0 ? compareQuantised(texels, reference) : bitsOf(texels < reference)) << first;
+    for (int part = 0; part * N <= windowTaps_; part++) {
+        const T reference =
+            kernels.referenceDepth(depth, perU, perV, du[static_cast<size_t>(part)], dv, farthest_);
+        const T texels = TexelFetch<T>::contiguous(row + part * N);
+        bits |= (levels_ > 0 ? compareQuantised(texels, reference) : bitsOf(texels < reference))
+                << (part * N);
     }
     return bits;
 }
@@ -303,13 +338,15 @@ void ShadowLookupOf<T>::findWindow(const Places& places, size_t count, std::span
         const auto whole = static_cast<Stored>(taps * taps);
         for (auto& corner : lit) corner[i] = whole;
         if (places.layer[i] == kNoLayer) continue;
-        const T depth(places.depth[i]), perU(places.perU[i]), perV(places.perV[i]),
-            centreU(places.centreU[i]);
+        const T depth(places.depth[i]), perU(places.perU[i]), perV(places.perV[i]);
+        WindowColumns du;
+        for (size_t part = 0; part * N <= static_cast<size_t>(taps); part++)
+            du[part] = T(places.centreU[i]) + columns_[part];
         const Stored* row = texel(places.layer[i], places.x[i], places.y[i]);
         int upper[2] = {0, 0}, lower[2] = {0, 0};
         for (int j = 0; j <= taps; j++, row += stride_) {
             const T dv = T(places.centreV[i]) + T(static_cast<double>(j));
-            const uint32_t bits = shadowedInRow(row, depth, perU, perV, centreU, dv);
+            const uint32_t bits = shadowedInRow(row, depth, perU, perV, du, dv);
             const int left = std::popcount(bits & window), right = std::popcount(bits >> 1 & window);
             if (j < taps) upper[0] += left, upper[1] += right;
             if (j > 0) lower[0] += left, lower[1] += right;
@@ -334,7 +371,9 @@ T ShadowLookupOf<T>::fetch(const std::array<int, kChunk>& layers, size_t first, 
     return generateNumber<T>([&](int i) {
         const int layer = layers[std::min(first + static_cast<size_t>(i), kChunk - 1)];
         if (layer == kNoLayer) return 0.0;
-        return static_cast<double>(*texel(layer, integerLane(x, i), integerLane(y, i)));
+        const int last = map_.projection.width + pad_ - 1;
+        return static_cast<double>(*texel(layer, std::clamp(integerLane(x, i), -pad_, last),
+                                          std::clamp(integerLane(y, i), -pad_, last)));
     });
 }
 

@@ -114,7 +114,10 @@ ShadowMap renderShadowMap(const SurfaceScene& scene, const std::vector<PlacedMes
         }
         map.triangles += rasterize(visible.target, {0, 0, view.width, view.height}, draws, cleared).triangles;
         if (!map.holdsDistance()) {
-            map.layers[layer].stored = visible.target.depth;
+            if (map.layers.size() == 1)
+                map.layers[layer].stored = std::move(visible.target.depth);
+            else
+                map.layers[layer].stored = visible.target.depth;
             continue;
         }
         ShadeJob job = shadeJobOf(visible, scene, placed, view, profile, options);
