@@ -69,7 +69,7 @@ void addVolumes(const std::string& name, const Way& way) {
         const PlacedWorkload work = place(w, way.profile);
         const RasterOptions options{.threads = way.threads};
         const Amount amount{.triangles = static_cast<double>(w.triangles()),
-                            .pixels = pixelsOf(w.view),
+                            .pixels = static_cast<double>(pixelsOf(w.view)),
                             .bytes_touched = 2 * (meshBytes(w) + pixelsOf(w.view) * kSample_bytes)};
         measure(state, amount, [&] {
             return VolumeShadows(w.scene, work.placed, w.view, *work.profile, {}, options).casts(0);
@@ -87,9 +87,9 @@ void addDirectionalOcclusion(const std::string& name, const Way& way) {
         options.directions = kOcclusionDirections;
         options.mapSize = kOcclusionMapSize;
         options.raster.threads = way.threads;
-        const auto count = static_cast<double>(points.size());
-        measure(state, {.pixels = count, .bytes_touched = count * sizeof(OcclusionPoint)},
-                [&] { return directionalOcclusion(work.placed, points, options)[0].open; });
+        const Amount amount{.pixels = static_cast<double>(points.size()),
+                            .bytes_touched = points.size() * sizeof(OcclusionPoint)};
+        measure(state, amount, [&] { return directionalOcclusion(work.placed, points, options)[0].open; });
     });
 }
 void addHemicubeOcclusion(const std::string& name, const Way& way) {
@@ -100,9 +100,9 @@ void addHemicubeOcclusion(const std::string& name, const Way& way) {
         HemicubeOptions options;
         options.size = kHemicubeSize;
         options.threads = way.threads;
-        const auto count = static_cast<double>(points.size());
-        measure(state, {.pixels = count, .bytes_touched = count * sizeof(OcclusionPoint)},
-                [&] { return hemicubeOcclusion(work.placed, points, options)[0].open; });
+        const Amount amount{.pixels = static_cast<double>(points.size()),
+                            .bytes_touched = points.size() * sizeof(OcclusionPoint)};
+        measure(state, amount, [&] { return hemicubeOcclusion(work.placed, points, options)[0].open; });
     });
 }
 

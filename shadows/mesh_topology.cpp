@@ -67,16 +67,70 @@ std::vector<DirectedEdge> edgesOfTriangles(std::span<const glm::dvec3> positions
     return edges;
 }
 
-void classify(MeshTopology& topology) {
-    topology.isClosed = true;
+// Counts the edges by kind; for each the sum of the directions.
+std::vector<int> classifyEdges(MeshTopology& topology) {
+    std::vector<int> sums;
+    sums.reserve(topology.edges.size());
     for (const MeshEdge& edge : topology.edges) {
         int sum = 0;
         for (uint32_t i = 0; i < edge.useCount; i++) sum += topology.uses[edge.firstUse + i].direction;
         if (edge.useCount == 1) topology.openEdges++;
         if (edge.useCount == 2 && sum != 0) topology.discordantEdges++;
         if (edge.useCount > 2) topology.crowdedEdges++;
-        if (sum != 0) topology.isClosed = false;
+        sums.push_back(sum);
     }
+    return sums;
+}
+
+// Triangles in sets that grow together; each set is known by its first triangle.
+class TriangleSets {
+  public:
+    explicit TriangleSets(size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
+    uint32_t first(uint32_t t) {
+        while (parent_[t] != t) t = parent_[t] = parent_[parent_[t]];
+        return t;
+    }
+    void unite(uint32_t a, uint32_t b) {
+        a = first(a), b = first(b);
+        parent_[std::max(a, b)] = std::min(a, b);
+    }
+
+  private:
+    std::vector<uint32_t> parent_;
+};
+
+void findParts(MeshTopology& topology, const std::vector<int>& sums) {
+    constexpr uint32_t kNone = UINT32_MAX;
+    const size_t count = topology.isUsed.size();
+    TriangleSets sets(count);
+    std::vector<uint8_t> hasEdges(count, 0);
+    for (const EdgeUse& use : topology.uses) hasEdges[use.triangle] = 1;
+    for (const MeshEdge& edge : topology.edges)
+        for (uint32_t i = 1; i < edge.useCount; i++)
+            sets.unite(topology.uses[edge.firstUse].triangle, topology.uses[edge.firstUse + i].triangle);
+
+    // Parts in the order of their first triangles, then the triangles sorted by part.
+    std::vector<uint32_t> part(count, kNone), size;
+    for (uint32_t t = 0; t < count; t++) {
+        if (!hasEdges[t]) continue;
+        const uint32_t first = sets.first(t);
+        if (first == t) {
+            part[t] = static_cast<uint32_t>(size.size());
+            size.push_back(0);
+        }
+        part[t] = part[first];
+        size[part[t]]++;
+    }
+    topology.firstOfPart.assign(size.size() + 1, 0);
+    std::partial_sum(size.begin(), size.end(), topology.firstOfPart.begin() + 1);
+    std::vector<uint32_t> next = topology.firstOfPart;
+    topology.trianglesOfParts.resize(topology.firstOfPart.back());
+    for (uint32_t t = 0; t < count; t++)
+        if (part[t] != kNone) topology.trianglesOfParts[next[part[t]]++] = t;
+
+    topology.isClosed.assign(size.size(), 1);
+    for (size_t e = 0; e < sums.size(); e++)
+        if (sums[e] != 0) topology.isClosed[part[topology.uses[topology.edges[e].firstUse].triangle]] = 0;
 }
 
 }  // namespace
@@ -97,7 +151,7 @@ MeshTopology topologyOf(std::span<const glm::dvec3> positions, std::span<const u
         topology.edges.back().useCount++;
         topology.uses.push_back(d.use);
     }
-    classify(topology);
+    findParts(topology, classifyEdges(topology));
     return topology;
 }
 

@@ -34,8 +34,17 @@ struct MeshTopology {
     uint32_t crowdedEdges = 0;     // of more than two: not a manifold
     uint32_t discordantEdges = 0;  // of two triangles that run along it in the same direction
 
-    // Whether the directions along each edge add up to zero, so that the surface bounds a solid.
-    bool isClosed = false;
+    // Parts: triangles that share edges, directly or through others. Those of part p are
+    // trianglesOfParts[firstOfPart[p]], ... up to firstOfPart[p + 1]; triangles without edges are in none.
+    std::vector<uint32_t> trianglesOfParts, firstOfPart;
+    // Whether the directions along each of its edges add up to zero, so that the part bounds a solid.
+    std::vector<uint8_t> isClosed;
+
+    size_t partCount() const { return isClosed.size(); }
+    std::span<const uint32_t> trianglesOf(size_t part) const {
+        return std::span(trianglesOfParts)
+            .subspan(firstOfPart[part], firstOfPart[part + 1] - firstOfPart[part]);
+    }
 };
 
 // indices: three per triangle, each below positions.size().

@@ -19,23 +19,23 @@ glm::dvec3 cross(const glm::dvec3& a, const glm::dvec3& b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-struct Mesh {
+// Some triangles of a mesh.
+struct Part {
     std::span<const glm::dvec3> positions;
-    std::span<const uint32_t> indices;
-    const MeshTopology* topology;
+    std::span<const uint32_t> indices, triangles;
 
-    const glm::dvec3& corner(size_t triangle, size_t i) const { return positions[indices[3 * triangle + i]]; }
-    // Calls visit(a, b, c) for the triangles that are not left out.
+    // Calls visit(a, b, c) for each.
     template <class Visit>
     void forEachTriangle(Visit visit) const {
-        for (size_t t = 0; t < indices.size() / 3; t++)
-            if (topology->isUsed[t]) visit(corner(t, 0), corner(t, 1), corner(t, 2));
+        for (const uint32_t t : triangles)
+            visit(positions[indices[3 * size_t{t}]], positions[indices[3 * size_t{t} + 1]],
+                  positions[indices[3 * size_t{t} + 2]]);
     }
 };
 
-bool isInBox(const Mesh& mesh, const glm::dvec3& point) {
+bool isInBox(const Part& part, const glm::dvec3& point) {
     glm::dvec3 lowest(HUGE_VAL), highest(-HUGE_VAL);
-    mesh.forEachTriangle([&](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+    part.forEachTriangle([&](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
         for (int i = 0; i < 3; i++) {
             lowest[i] = std::min({lowest[i], a[i], b[i], c[i]});
             highest[i] = std::max({highest[i], a[i], b[i], c[i]});
@@ -47,14 +47,16 @@ bool isInBox(const Mesh& mesh, const glm::dvec3& point) {
 }
 
 // For each triangle: 1 if the light sees it counter-clockwise, -1 if clockwise, 0 if edge-on or left out.
-std::vector<int8_t> facingOf(const Mesh& mesh, const LightSource& light, int threads) {
-    const size_t count = mesh.indices.size() / 3;
+std::vector<int8_t> facingOf(std::span<const glm::dvec3> positions, std::span<const uint32_t> indices,
+                             const MeshTopology& topology, const LightSource& light, int threads) {
+    const size_t count = indices.size() / 3;
     std::vector<int8_t> facing(count, 0);
     parallelFor((count + kTrianglesPerTask - 1) / kTrianglesPerTask, threads, [&](size_t task) {
         const size_t end = std::min(count, (task + 1) * kTrianglesPerTask);
         for (size_t t = task * kTrianglesPerTask; t < end; t++) {
-            if (!mesh.topology->isUsed[t]) continue;
-            const glm::dvec3 &a = mesh.corner(t, 0), &b = mesh.corner(t, 1), &c = mesh.corner(t, 2);
+            if (!topology.isUsed[t]) continue;
+            const glm::dvec3 &a = positions[indices[3 * t]], &b = positions[indices[3 * t + 1]],
+                             &c = positions[indices[3 * t + 2]];
             facing[t] = static_cast<int8_t>(light.atInfinity ? sideOfTriangleTowards(a, b, c, light.place)
                                                              : sideOfTriangle(a, b, c, light.place));
         }
@@ -73,10 +75,11 @@ void addSide(ShadowVolume& volume, uint32_t a, uint32_t b, uint32_t vertices, bo
 }  // namespace
 
 double signedVolume(std::span<const glm::dvec3> positions, std::span<const uint32_t> indices,
-                    const MeshTopology& topology) {
+                    std::span<const uint32_t> triangles) {
     double sum = 0;
-    const glm::dvec3 origin = positions.empty() ? glm::dvec3(0) : positions[0];
-    Mesh{positions, indices, &topology}.forEachTriangle(
+    const glm::dvec3 origin =
+        triangles.empty() ? glm::dvec3(0) : positions[indices[3 * size_t{triangles[0]}]];
+    Part{positions, indices, triangles}.forEachTriangle(
         [&](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
             sum = sum + dot(a - origin, cross(b - origin, c - origin));
         });
@@ -84,12 +87,12 @@ double signedVolume(std::span<const glm::dvec3> positions, std::span<const uint3
 }
 
 bool mayBeInside(std::span<const glm::dvec3> positions, std::span<const uint32_t> indices,
-                 const MeshTopology& topology, const glm::dvec3& point) {
-    const Mesh mesh{positions, indices, &topology};
-    if (!isInBox(mesh, point)) return false;
+                 std::span<const uint32_t> triangles, const glm::dvec3& point) {
+    const Part part{positions, indices, triangles};
+    if (!isInBox(part, point)) return false;
     // Solid angles by [Oosterom83]; a closed surface turns a whole number of times around a point.
     double turned_rad = 0;
-    mesh.forEachTriangle([&](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+    part.forEachTriangle([&](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
         const glm::dvec3 u = a - point, v = b - point, w = c - point;
         const double lu = std::sqrt(dot(u, u)), lv = std::sqrt(dot(v, v)), lw = std::sqrt(dot(w, w));
         const double divisor = lu * lv * lw + (dot(u, v) * lw + (dot(v, w) * lu + dot(w, u) * lv));
@@ -102,16 +105,17 @@ bool mayBeInside(std::span<const glm::dvec3> positions, std::span<const uint32_t
 ShadowVolume shadowVolumeOf(std::span<const glm::dvec3> positions, std::span<const uint32_t> indices,
                             const MeshTopology& topology, const LightSource& light, int threads) {
     ETALON_CHECK(isExactPoint(light.place), "light {} {} {}", light.place.x, light.place.y, light.place.z);
-    const Mesh mesh{positions, indices, &topology};
-    std::vector<int8_t> facing = facingOf(mesh, light, threads);
+    std::vector<int8_t> facing = facingOf(positions, indices, topology, light, threads);
 
     ShadowVolume volume;
-    volume.frontsOnly =
-        topology.isClosed && (light.atInfinity || !mayBeInside(positions, indices, topology, light.place));
-    if (volume.frontsOnly) {
-        const int8_t front = signedVolume(positions, indices, topology) >= 0 ? 1 : -1;
-        for (int8_t& f : facing)
-            if (f != front) f = 0;
+    for (size_t p = 0; p < topology.partCount(); p++) {
+        const std::span<const uint32_t> part = topology.trianglesOf(p);
+        if (!topology.isClosed[p]) continue;
+        if (!light.atInfinity && mayBeInside(positions, indices, part, light.place)) continue;
+        volume.closedParts++;
+        const int8_t front = signedVolume(positions, indices, part) >= 0 ? 1 : -1;
+        for (const uint32_t t : part)
+            if (facing[t] != front) facing[t] = 0;
     }
 
     for (uint32_t t = 0; t < facing.size(); t++) {

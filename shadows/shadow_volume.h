@@ -9,9 +9,10 @@
 // light.
 //
 // Which triangles cast:
-//   - of a closed mesh with the light outside: those that face the light, and their silhouette once;
-//   - else: all, each turned to the light. A closed part then counts twice, and a mesh around the light
-//     shadows everything beyond it.
+//   - of a closed part of the mesh with the light outside it: those that face the light, and their silhouette
+//     once;
+//   - of other parts: all, each turned to the light. A closed part around the light shadows everything
+//   beyond.
 // Triangles whose plane holds the light cast nothing. Facing is decided exactly (shadows/exact_side.h).
 #pragma once
 
@@ -34,19 +35,19 @@ struct ShadowVolume {
     // Sides: triangles, three vertex numbers each, counter-clockwise from outside the volume.
     std::vector<uint32_t> sides;
     uint32_t silhouetteEdges = 0;  // with sides
-    bool frontsOnly = false;       // the first of the two ways above
+    uint32_t closedParts = 0;      // that cast the first of the two ways above
 
     bool empty() const { return facing.empty() && away.empty(); }
 };
 
-// The signed volume of a closed mesh is positive if its triangles are counter-clockwise from outside.
+// The signed volume of a closed part is positive if its triangles are counter-clockwise from outside.
 double signedVolume(std::span<const glm::dvec3> positions, std::span<const uint32_t> indices,
-                    const MeshTopology& topology);
+                    std::span<const uint32_t> triangles);
 
-// Whether a point is inside the solid that a closed mesh bounds, or close to its surface: the solid angle of
+// Whether a point is inside the solid that a closed part bounds, or close to its surface: the solid angle of
 // the surface around the point is not zero.
 bool mayBeInside(std::span<const glm::dvec3> positions, std::span<const uint32_t> indices,
-                 const MeshTopology& topology, const glm::dvec3& point);
+                 std::span<const uint32_t> triangles, const glm::dvec3& point);
 
 // topology: that of the same mesh. Throws PreconditionError for a light with a coordinate outside the range
 // of shadows/exact_side.h (NaN, infinity). Threads change no bit.

@@ -66,7 +66,6 @@ TEST_CASE("AnEffectThatNoOutputNeedsChangesNoBit") {
 TEST_CASE("ShadowVolumesAreWhereTheMapsAre") {
     for (size_t light = 0; light < 3; light++) {
         Scene scene = loadScene("golden/scenes/shadows.toml");
-        scene.camera.width /= 2, scene.camera.height /= 2;
         scene.lights = {scene.lights[light]};
         scene.lights[0].shadowMap = defaultShadowMap();
         scene.lights[0].shadowMap->size = 512;

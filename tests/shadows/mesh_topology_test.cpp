@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "shadows/shadow_volume.h"
 #include "tests/support/shadow_meshes.h"
 
 using namespace etalon;
@@ -27,7 +28,8 @@ TEST_CASE("ClosedMeshesHaveTwoTrianglesAtEachEdge") {
     for (const SurfaceMesh& mesh :
          {solidBox({0, 0, 0}, {1, 1, 1}), sphere(12, 7, {0, 0, 0}, 1), torusKnot(24, 6)}) {
         const MeshTopology topology = topologyOf(mesh);
-        CHECK(topology.isClosed);
+        CHECK(topology.isClosed == std::vector<uint8_t>{1});
+        CHECK(topology.trianglesOf(0).size() * 3 == mesh.indices.size());
         CHECK(topology.openEdges + topology.crowdedEdges + topology.discordantEdges == 0);
         CHECK(topology.edges.size() * 2 == mesh.indices.size());
         CHECK(topology.uses.size() == mesh.indices.size());
@@ -37,7 +39,7 @@ TEST_CASE("ClosedMeshesHaveTwoTrianglesAtEachEdge") {
 TEST_CASE("OpenCrowdedAndDiscordantEdgesAreCounted") {
     SurfaceMesh mesh = rectangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
     CHECK(topologyOf(mesh).openEdges == 4);
-    CHECK_FALSE(topologyOf(mesh).isClosed);
+    CHECK(topologyOf(mesh).isClosed == std::vector<uint8_t>{0});
     // A third triangle at the diagonal.
     mesh.positions.emplace_back(0, 0, 1);
     mesh.indices.insert(mesh.indices.end(), {0, 2, 4});
@@ -61,5 +63,33 @@ TEST_CASE("TrianglesWithoutPlaceAreNamed") {
     CHECK(topology.leftOut == 1);
     CHECK(topology.isUsed[12] == 1);
     CHECK(topology.isUsed[13] == 0);
-    CHECK(topology.isClosed);
+    CHECK(topology.isClosed == std::vector<uint8_t>{1});
+    CHECK(topology.trianglesOfParts.size() == 12);
+}
+
+TEST_CASE("PartsAreTrianglesThatShareEdges") {
+    // A box, a rectangle, and a box again.
+    SurfaceMesh mesh = solidBox({0, 0, 0}, {1, 1, 1});
+    for (const SurfaceMesh& other :
+         {rectangle({5, 0, 0}, {1, 0, 0}, {0, 1, 0}), solidBox({9, 0, 0}, {1, 1, 1})}) {
+        for (const uint32_t i : other.indices)
+            mesh.indices.push_back(i + static_cast<uint32_t>(mesh.positions.size()));
+        mesh.positions.insert(mesh.positions.end(), other.positions.begin(), other.positions.end());
+    }
+    const MeshTopology topology = topologyOf(mesh);
+    CHECK(topology.isClosed == std::vector<uint8_t>{1, 0, 1});
+    CHECK(topology.firstOfPart == std::vector<uint32_t>{0, 12, 14, 26});
+    CHECK(topology.trianglesOf(1)[0] == 12);
+    // Which of them cast both sides, and the orientation of each.
+    const std::vector<glm::dvec3> positions = positionsOf(mesh);
+    CHECK(signedVolume(positions, mesh.indices, topology.trianglesOf(2)) == 8);
+    CHECK(mayBeInside(positions, mesh.indices, topology.trianglesOf(0), {0.5, 0.5, 0.5}));
+    CHECK_FALSE(mayBeInside(positions, mesh.indices, topology.trianglesOf(2), {0.5, 0.5, 0.5}));
+    const auto volume = [&](const LightSource& light) {
+        return shadowVolumeOf(positions, mesh.indices, topology, light, 1);
+    };
+    CHECK(volume({{0, 0, 1}, true}).closedParts == 2);
+    CHECK(volume({{0, 0, 1}, true}).facing.size() == 6);
+    CHECK(volume({{0.5, 0.5, 0.5}, false}).closedParts == 1);
+    CHECK(volume({{0.5, 0.5, 0.5}, false}).away.size() == 12);
 }
