@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "ar/image_io.h"
-#include "probes/convert.h"
+#include "probes/texel_grid.h"
 
 namespace etalon {
 namespace {

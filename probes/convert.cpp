@@ -9,18 +9,6 @@
 namespace etalon {
 namespace {
 
-template <class Pixel>
-void checkLayers(const std::vector<Image<Pixel>>& layers, const ProbeShape& shape, int channels,
-                 const char* what) {
-    ETALON_CHECK(layers.size() == static_cast<size_t>(shape.layers()), "{} of {} layers, not {}", what,
-                 layers.size(), shape.layers());
-    for (const Image<Pixel>& layer : layers)
-        ETALON_CHECK(
-            layer.width() == shape.width && layer.height() == shape.height && layer.channels() == channels,
-            "{} of {}x{} with {} channels, not {}x{} with {}", what, layer.width(), layer.height(),
-            layer.channels(), shape.width, shape.height, channels);
-}
-
 // Images of the shape; those that fit are kept, with whatever they hold.
 template <class Pixel>
 void fitLayers(std::vector<Image<Pixel>>& layers, const ProbeShape& shape, int channels) {
@@ -68,13 +56,6 @@ glm::dmat3 turnBetween(const glm::dmat3& from, const glm::dmat3& to) {
 }
 
 }  // namespace
-
-void checkProbe(const Probe& probe) {
-    checkShape(probe.shape);
-    checkLayers(probe.radiance, probe.shape, 3, "radiance");
-    if (!probe.distance_m.empty()) checkLayers(probe.distance_m, probe.shape, 1, "distance");
-    if (!probe.valid.empty()) checkLayers(probe.valid, probe.shape, 1, "validity");
-}
 
 Probe convertProbe(const Probe& source, const ProbeConversion& conversion, FragmentArithmetic arithmetic,
                    int threads) {

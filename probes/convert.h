@@ -52,9 +52,6 @@ Probe convertProbe(const Probe& source, const ProbeConversion& conversion,
 void convertProbe(Probe& result, const Probe& source, const ProbeConversion& conversion,
                   FragmentArithmetic arithmetic = FragmentArithmetic::fp32, int threads = 0);
 
-// Layers, sizes and channels are as the shape says; PreconditionError with what is wrong otherwise.
-void checkProbe(const Probe& probe);
-
 // A probe from six faces or one image, without distance; and the faces of a probe of the mapping cube.
 Probe probeOf(const CubeMap<float>& cube);
 Probe probeOf(const Image<float>& image, Mapping mapping);

@@ -6,22 +6,6 @@
 
 namespace etalon {
 
-void checkProbe(const Probe& probe) {
-    const ProbeShape& shape = probe.shape;
-    const auto layers = static_cast<size_t>(shape.layers());
-    ETALON_CHECK(probe.radiance.size() == layers, "{} images, {} layers", probe.radiance.size(), layers);
-    for (const Image<float>& image : probe.radiance)
-        ETALON_CHECK(image.width() == shape.width && image.height() == shape.height && image.channels() == 3,
-                     "{}x{} with {} channels in a probe of {}x{}", image.width(), image.height(),
-                     image.channels(), shape.width, shape.height);
-    ETALON_CHECK(probe.valid.empty() || probe.valid.size() == layers, "{} masks, {} layers",
-                 probe.valid.size(), layers);
-    for (const Image<uint8_t>& mask : probe.valid)
-        ETALON_CHECK(mask.width() == shape.width && mask.height() == shape.height,
-                     "a mask of {}x{} in a probe of {}x{}", mask.width(), mask.height(), shape.width,
-                     shape.height);
-}
-
 TexelRow readRadiance(const Probe& probe, int layer, int y) {
     TexelRow row;
     row.width = probe.shape.width;

@@ -105,10 +105,6 @@ struct TexelRow {
     std::array<std::vector<float>, 3> radiance;
 };
 
-// Throws PreconditionError unless the probe has for each layer three channels of radiance of its shape's
-// size, and masks of that size if it has any.
-void checkProbe(const Probe& probe);
-
 // The radiance of a row of a checked probe; blind texels are black. Directions and weights stay empty.
 TexelRow readRadiance(const Probe& probe, int layer, int y);
 // Directions in the probe's frame, as TexelGrid has them.

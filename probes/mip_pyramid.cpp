@@ -6,7 +6,7 @@
 #include "numeric/check.h"
 #include "numeric/elementary.h"
 #include "numeric/parallel.h"
-#include "probes/convert.h"
+#include "probes/texel_grid.h"
 
 namespace etalon {
 namespace {

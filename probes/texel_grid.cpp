@@ -45,6 +45,18 @@ std::vector<double> cubeSolidAngles_sr(int size) {
     return texels;
 }
 
+template <class Pixel>
+void checkLayers(const std::vector<Image<Pixel>>& layers, const ProbeShape& shape, int channels,
+                 const char* what) {
+    ETALON_CHECK(layers.size() == static_cast<size_t>(shape.layers()), "{} of {} layers, not {}", what,
+                 layers.size(), shape.layers());
+    for (const Image<Pixel>& layer : layers)
+        ETALON_CHECK(
+            layer.width() == shape.width && layer.height() == shape.height && layer.channels() == channels,
+            "{} of {}x{} with {} channels, not {}x{} with {}", what, layer.width(), layer.height(),
+            layer.channels(), shape.width, shape.height, channels);
+}
+
 }  // namespace
 
 void checkShape(const ProbeShape& shape) {
@@ -53,6 +65,13 @@ void checkShape(const ProbeShape& shape) {
                  shape.width, shape.height);
     ETALON_CHECK(shape.mapping != Mapping::mirrorBall || shape.ballDistance_radii >= kLeastBallDistance_radii,
                  "a mirror ball seen from {} radii", shape.ballDistance_radii);
+}
+
+void checkProbe(const Probe& probe) {
+    checkShape(probe.shape);
+    checkLayers(probe.radiance, probe.shape, 3, "radiance");
+    if (!probe.distance_m.empty()) checkLayers(probe.distance_m, probe.shape, 1, "distance");
+    if (!probe.valid.empty()) checkLayers(probe.valid, probe.shape, 1, "validity");
 }
 
 std::vector<double> cubeRowSolidAngles_sr(int size, int y) {

@@ -28,6 +28,9 @@ inline bool isDisc(Mapping mapping) { return mapping == Mapping::angular || mapp
 // True if a part of the texel shows directions.
 bool showsDirection(const ProbeShape& shape, int x, int y);
 
+// Layers, sizes and channels are as the shape says; PreconditionError with what is wrong otherwise.
+void checkProbe(const Probe& probe);
+
 class TexelGrid {
   public:
     // A shape that checkShape (probes/mapping.h) accepts.

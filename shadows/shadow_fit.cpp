@@ -180,15 +180,16 @@ void placeTexels(ShadowProjection& projection, const double low[2], const double
     // A snapped rectangle may begin up to one texel before.
     double texel = extent / std::max(inside - (settings.snap ? 1 : 0), 1);
     double centre[2];
+    const int half = settings.size / 2;
     if (settings.snap) texel = roundedUp(texel);
     for (int k = 0; k < 2; k++) {
         const double first =
             settings.snap ? std::floor(low[k] / texel) * texel : (low[k] + high[k]) / 2 - texel * inside / 2;
-        centre[k] = first + texel * (settings.size / 2 - margin);
+        centre[k] = first + texel * (half - margin);
     }
     projection.width = settings.size;
     projection.scale = 1 / texel;
-    projection.centreU = projection.centreV = settings.size / 2;
+    projection.centreU = projection.centreV = half;
     if (projection.isPerspective) {
         projection.centreU -= centre[0] / texel;
         projection.centreV -= centre[1] / texel;
