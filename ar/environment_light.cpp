@@ -77,31 +77,31 @@ void addEnvironmentLight(const Environment& environment, const Profile& profile,
     EnvironmentLight& light = surfaces.environment.light;
     const ProbeShape cube{Mapping::cube, environment.mapSize, environment.mapSize};
     switch (environment.lighting) {
-        case EnvironmentLighting::none:
+        case EnvironmentLightMethod::none:
             return;
-        case EnvironmentLighting::lights: {
+        case EnvironmentLightMethod::lights: {
             MedianCut cut;
             for (cut.log2Count = 0; (1 << cut.log2Count) < environment.lightCount;) cut.log2Count++;
             for (const ProbeLight& found : medianCutLights(probe, cut, threads).lights)
                 if (found.energy != glm::dvec3(0)) addLight(found, surfaces);
             return;
         }
-        case EnvironmentLighting::dominant:
+        case EnvironmentLightMethod::dominant:
             for (const DominantLight& found : dominantLights(probe)) addLight(found.light, surfaces);
             return;
-        case EnvironmentLighting::harmonics:
+        case EnvironmentLightMethod::harmonics:
             light.kind = EnvironmentLight::Kind::harmonics;
             light.harmonics = irradianceOfHarmonics(projectHarmonics(probe, 2, threads));
             return;
-        case EnvironmentLighting::exact:
+        case EnvironmentLightMethod::exact:
             light.kind = EnvironmentLight::Kind::texels;
             setTexels(probe, light);
             return;
-        case EnvironmentLighting::map:
+        case EnvironmentLightMethod::map:
             light.kind = EnvironmentLight::Kind::map;
             light.map = facesOf(irradianceProbe(probe, cube, FragmentArithmetic::fp64, threads), 1);
             return;
-        case EnvironmentLighting::blurred: {
+        case EnvironmentLightMethod::blurred: {
             // The reflective map in world axes, blurred with a kernel as wide as a face [Karlsson2005,
             // Sec. 3.1.5].
             ProbeConversion conversion;

@@ -73,11 +73,11 @@ class Planner {
     // Whether the environment lights surfaces, and whether it does so by lights that glosses reflect.
     bool environmentLights() const {
         return scene_.environment.kind != EnvironmentKind::none &&
-               scene_.environment.lighting != EnvironmentLighting::none;
+               scene_.environment.lighting != EnvironmentLightMethod::none;
     }
     bool environmentHasLights() const {
-        return environmentLights() && (scene_.environment.lighting == EnvironmentLighting::lights ||
-                                       scene_.environment.lighting == EnvironmentLighting::dominant);
+        return environmentLights() && (scene_.environment.lighting == EnvironmentLightMethod::lights ||
+                                       scene_.environment.lighting == EnvironmentLightMethod::dominant);
     }
 
     // Why a radiance component is zero everywhere, or empty when it may not be.
@@ -231,7 +231,7 @@ class Planner {
             add("environment light", plan_.environmentLight,
                 plan_.environmentLight
                     ? fmt::format("surfaces are lit by the environment: {}",
-                                  kEnvironmentLightings[static_cast<size_t>(scene_.environment.lighting)])
+                                  kEnvironmentLightMethods[static_cast<size_t>(scene_.environment.lighting)])
                     : "neither diffuse nor specular runs",
                 isFile ? std::vector<std::string>{"environment image"} : std::vector<std::string>{});
             for (const char* component : {"diffuse", "specular"})

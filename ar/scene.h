@@ -69,9 +69,9 @@ struct Camera {
 enum class EnvironmentKind : uint8_t { none, constant, file };
 
 // How the environment lights surfaces, besides being seen and mirrored (docs/scene_format.md).
-enum class EnvironmentLighting : uint8_t { none, lights, dominant, harmonics, exact, map, blurred };
-inline constexpr std::string_view kEnvironmentLightings[] = {"none",  "lights", "dominant", "harmonics",
-                                                             "exact", "map",    "blurred"};
+enum class EnvironmentLightMethod : uint8_t { none, lights, dominant, harmonics, exact, map, blurred };
+inline constexpr std::string_view kEnvironmentLightMethods[] = {"none",  "lights", "dominant", "harmonics",
+                                                                "exact", "map",    "blurred"};
 // Most lights of a median cut, largest edge of a map of irradiance.
 inline constexpr int kMaxEnvironmentLights = 65536, kMaxLightMapSize = 512;
 
@@ -84,7 +84,7 @@ struct Environment {
     std::filesystem::path file;  // kind file: resolved against the scene file's folder
     double intensity = 1;        // > 0
     double rotation_deg = 0;
-    EnvironmentLighting lighting = EnvironmentLighting::none;
+    EnvironmentLightMethod lighting = EnvironmentLightMethod::none;
     int lightCount = 64;  // of lights: a power of two
     int mapSize = 32;     // of map and blurred: texels along a face
 };

@@ -84,14 +84,14 @@ Intrinsics readIntrinsics(const TableReader& reader, int width, int height) {
 // How an environment lights surfaces.
 void readLighting(const TableReader& reader, Environment& environment) {
     if (reader.has("lighting")) {
-        const std::string name = reader.choice("lighting", kEnvironmentLightings);
-        environment.lighting = static_cast<EnvironmentLighting>(
-            std::ranges::find(kEnvironmentLightings, name) - std::begin(kEnvironmentLightings));
+        const std::string name = reader.choice("lighting", kEnvironmentLightMethods);
+        environment.lighting = static_cast<EnvironmentLightMethod>(
+            std::ranges::find(kEnvironmentLightMethods, name) - std::begin(kEnvironmentLightMethods));
     }
-    if (environment.lighting != EnvironmentLighting::lights)
+    if (environment.lighting != EnvironmentLightMethod::lights)
         reader.forbid("lights", "needs lighting = \"lights\"");
-    if (environment.lighting != EnvironmentLighting::map &&
-        environment.lighting != EnvironmentLighting::blurred)
+    if (environment.lighting != EnvironmentLightMethod::map &&
+        environment.lighting != EnvironmentLightMethod::blurred)
         reader.forbid("map_size", "needs lighting = \"map\" or \"blurred\"");
     if (reader.has("lights")) {
         environment.lightCount = static_cast<int>(reader.integer("lights", 1, kMaxEnvironmentLights));

@@ -29,7 +29,7 @@ SurfaceScene sceneUnderSlope(int width) {
     return scene;
 }
 
-Environment environmentOf(EnvironmentLighting lighting) {
+Environment environmentOf(EnvironmentLightMethod lighting) {
     Environment environment;
     environment.kind = EnvironmentKind::file;
     environment.lighting = lighting;
@@ -53,10 +53,10 @@ const glm::dvec3 kNormals[] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0},         {0, -1,
 
 // Bounds: the midpoint rule of 64 x 32 texels and interpolation in a map of 32 texels a face; 256 lights.
 TEST_CASE("EveryLightOfTheEnvironmentGivesTheIrradianceOfASlope") {
-    const std::pair<EnvironmentLighting, double> kBounds[] = {{EnvironmentLighting::harmonics, 1e-3},
-                                                              {EnvironmentLighting::exact, 2e-3},
-                                                              {EnvironmentLighting::map, 4e-3},
-                                                              {EnvironmentLighting::lights, 2e-2}};
+    const std::pair<EnvironmentLightMethod, double> kBounds[] = {{EnvironmentLightMethod::harmonics, 1e-3},
+                                                                 {EnvironmentLightMethod::exact, 2e-3},
+                                                                 {EnvironmentLightMethod::map, 4e-3},
+                                                                 {EnvironmentLightMethod::lights, 2e-2}};
     for (const auto& [lighting, bound] : kBounds) {
         SurfaceScene scene = sceneUnderSlope(64);
         Environment environment = environmentOf(lighting);
@@ -73,9 +73,9 @@ TEST_CASE("EveryLightOfTheEnvironmentGivesTheIrradianceOfASlope") {
 TEST_CASE("TheBlurredMapKeepsAConstantAndTheBrightSide") {
     SurfaceScene white;
     white.environment.constant = {1, 2, 3};
-    addEnvironmentLight(environmentOf(EnvironmentLighting::blurred), *findProfile("f32"), 1, white);
+    addEnvironmentLight(environmentOf(EnvironmentLightMethod::blurred), *findProfile("f32"), 1, white);
     SurfaceScene slope = sceneUnderSlope(64);
-    addEnvironmentLight(environmentOf(EnvironmentLighting::blurred), *findProfile("f32"), 1, slope);
+    addEnvironmentLight(environmentOf(EnvironmentLightMethod::blurred), *findProfile("f32"), 1, slope);
     for (const glm::dvec3& n : kNormals)
         for (int c = 0; c < 3; c++)
             CHECK(irradianceOf(white, n)[c] == doctest::Approx((c + 1) * kPi).epsilon(1e-5));
@@ -89,7 +89,7 @@ TEST_CASE("TheDominantLightIsTheSun") {
     scene.environment.latLong = Image<float>(64, 32, 3);
     scene.environment.latLong.fill(0.001f);
     for (int c = 0; c < 3; c++) scene.environment.latLong.at(10, 8, c) = 1000;
-    addEnvironmentLight(environmentOf(EnvironmentLighting::dominant), *findProfile("f64"), 1, scene);
+    addEnvironmentLight(environmentOf(EnvironmentLightMethod::dominant), *findProfile("f64"), 1, scene);
     REQUIRE(scene.lights.size() == 1);
     const LatLongGrid grid(64, 32);
     const glm::dvec3 sun = grid.direction(10, 8), &found = scene.lights[0].toLight;
@@ -99,7 +99,7 @@ TEST_CASE("TheDominantLightIsTheSun") {
 
 TEST_CASE("WithoutLightingNothingIsAdded") {
     SurfaceScene scene = sceneUnderSlope(8);
-    addEnvironmentLight(environmentOf(EnvironmentLighting::none), *findProfile("f64"), 1, scene);
+    addEnvironmentLight(environmentOf(EnvironmentLightMethod::none), *findProfile("f64"), 1, scene);
     CHECK(scene.lights.empty());
     CHECK(scene.environment.light.kind == EnvironmentLight::Kind::none);
 }
