@@ -21,11 +21,11 @@ class Bits(CliCase):
         text = self.expect(0, "bits").stdout
         self.assertIn("same: count/one: numbers in a row; ", text)
         self.assertIn("2 of 2 cases have the bits of golden/bits.txt", text)
-        self.assertIn("levels scalar", text)
+        self.assertIn("levels " + self.lowest_level(), text)
         self.assertEqual(self.files(), ["golden/bits.txt"])
 
     def test_choices_of_ways(self):
-        report = json.loads(self.expect(0, "bits", "--isa", "scalar", "--threads", 3, "--tile", 24, "--json").stdout)
+        report = json.loads(self.expect(0, "bits", "--isa", self.lowest_level(), "--threads", 3, "--tile", 24, "--json").stdout)
         self.assertEqual([result["ways"] for result in report["results"]], [1, 1])
         default, every = (json.loads(self.expect(0, "bits", "--json", *options).stdout)["results"][0]["ways"]
                           for options in ([], ["--all"]))

@@ -1,6 +1,7 @@
 """What the tests of the command share: run it in a new folder, look at exit code, messages and files."""
 import os
 import pathlib
+import re
 import shutil
 import struct
 import subprocess
@@ -46,6 +47,10 @@ class CliCase(unittest.TestCase):
         result = self.expect(2, *arguments, **options)
         self.assertIn(text, result.stderr)
         return result
+
+    def lowest_level(self):
+        """The first of the instruction set levels that are built."""
+        return re.search(r"--isa TEXT:\{(\w+)", self.run_program("bits", "--help").stdout).group(1)
 
     def unprivileged(self):
         """Options of run_program that run a copy of the program as a user whom permissions stop."""

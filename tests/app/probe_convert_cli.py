@@ -54,7 +54,7 @@ class ProbeConvert(cli_case.CliCase):
             # And back: the upper half is still the sky.
             self.convert("a.exr", "--to", "latlong", "--width", 32, "-o", "b.exr")
             up, down = (self.info("b.exr")["irradiance"][axis][1] for axis in ("+y", "-y"))
-            self.assertAlmostEqual(up / down, 2.0, delta=0.03)
+            self.assertAlmostEqual(up / down, 2.0, delta=0.05)
 
     def test_cube_layouts_hold_the_same_probe(self):
         means = []
