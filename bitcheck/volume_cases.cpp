@@ -66,19 +66,20 @@ std::vector<BitPlane> planesOf(const std::vector<Occlusion>& occlusion) {
 
 void addVolumeCases(std::vector<BitCase>& cases) {
     const Profile &fp32 = *findProfile("f32"), &fp64 = *findProfile("f64");
-    cases.push_back(
-        {"shadows/volumes", "shadow volumes, z-fail", true, true, true, [&](const RasterOptions& options) {
-             return countVolumes(VolumeCounting::zFail, fp32, 1, options);
-         }});
+    cases.push_back({"shadows/volumes", "shadow volumes, z-fail", true, true, true,
+                     [&fp32](const RasterOptions& options) {
+                         return countVolumes(VolumeCounting::zFail, fp32, 1, options);
+                     }});
     cases.push_back({"shadows/volumes-pass-fp64-4", "the same, z-pass, f64, 4 samples", true, true, true,
-                     [&](const RasterOptions& options) {
+                     [&fp64](const RasterOptions& options) {
                          return countVolumes(VolumeCounting::zPass, fp64, 4, options);
                      }});
     cases.push_back({"shadows/oracle", "triangles between points and lights", false, false, false,
                      [](const RasterOptions&) { return askOracle(); }});
     cases.push_back({"shadows/hemicube", "ambient occlusion and bent normals of a knot's vertices", true,
                      true, false, [](const RasterOptions& options) {
-                         const auto placed = placeMeshes(demoScene(), RasterReal::fp64, options.threads);
+                         const SurfaceScene scene = demoScene();
+                         const auto placed = placeMeshes(scene, RasterReal::fp64, options.threads);
                          auto points = occlusionPointsOf(placed[0]);
                          points.resize(64);
                          HemicubeOptions hemicube;
@@ -88,7 +89,8 @@ void addVolumeCases(std::vector<BitCase>& cases) {
                      }});
     cases.push_back({"shadows/directions", "the same from many directions", true, true, true,
                      [](const RasterOptions& options) {
-                         const auto placed = placeMeshes(demoScene(), RasterReal::fp64, options.threads);
+                         const SurfaceScene scene = demoScene();
+                         const auto placed = placeMeshes(scene, RasterReal::fp64, options.threads);
                          DirectionalOptions directional;
                          directional.directions = 24;
                          directional.mapSize = 128;

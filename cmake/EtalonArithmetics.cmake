@@ -1,5 +1,5 @@
-# Sources that instantiate families of passes once per fragment arithmetic (raster/fragment_numbers.h).
-set(etalon_lane_arithmetics fp64 fp32 fp32Flush fp32Nv40 fp16 fp16Nv40 bf16 fp24R300)
+# Sources that instantiate families of passes once per number type of fragments (raster/fragment_numbers.h).
+set(etalon_lane_arithmetics fp64 fp32 fp32Flush fp16 bf16 fp24R300)
 
 # etalon_arithmetic_sources(LIBRARY LEVELED UNLEVELED families...): writes a source per family and arithmetic and sets
 # LEVELED to those that etalon_leveled_sources() takes and UNLEVELED to those of truth. Family "shading" is

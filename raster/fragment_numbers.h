@@ -50,13 +50,12 @@ struct FragmentNumber<FragmentArithmetic::fp24R300> {
 
 }  // namespace etalon
 
-// Expands X(arithmetic, ...) for each arithmetic but truth, which has no lanes.
+// Expands X(arithmetic, ...) for each arithmetic with lanes that has a number type of its own: truth has no
+// lanes, and what is assumed of NV40 has the types of fp32Flush and fp16.
 #define ETALON_FOR_EACH_LANE_ARITHMETIC(X, ...) \
     X(fp64, __VA_ARGS__)                        \
     X(fp32, __VA_ARGS__)                        \
-    X(fp32Flush, __VA_ARGS__)                   \
-    X(fp32Nv40, __VA_ARGS__)                    \
-    X(fp16, __VA_ARGS__) X(fp16Nv40, __VA_ARGS__) X(bf16, __VA_ARGS__) X(fp24R300, __VA_ARGS__)
+    X(fp32Flush, __VA_ARGS__) X(fp16, __VA_ARGS__) X(bf16, __VA_ARGS__) X(fp24R300, __VA_ARGS__)
 
 // Declares what the made sources define. Stands in namespace etalon.
 #define ETALON_DECLARE_ARITHMETICS(Passes, function) \
@@ -64,15 +63,23 @@ struct FragmentNumber<FragmentArithmetic::fp24R300> {
 #define ETALON_DECLARE_ARITHMETIC(name, Passes, function) Passes function##_##name();
 
 // Defines `Passes function_inLanes(FragmentArithmetic)`: those of a level, for its table of passes.
-#define ETALON_PASSES_IN_LANES(Passes, function)                              \
-    Passes function##_inLanes(FragmentArithmetic arithmetic) {                \
-        switch (arithmetic) {                                                 \
-            ETALON_FOR_EACH_LANE_ARITHMETIC(ETALON_ARITHMETIC_CASE, function) \
-            case FragmentArithmetic::truth:                                   \
-                break;                                                        \
-        }                                                                     \
-        ETALON_CHECK(false, "arithmetic {}", static_cast<int>(arithmetic));   \
-        __builtin_unreachable();                                              \
+#define ETALON_PASSES_IN_LANES(Passes, function)                                            \
+    Passes function##_inLanes(FragmentArithmetic arithmetic) {                              \
+        static_assert(std::is_same_v<FragmentNumber<FragmentArithmetic::fp32Nv40>::Type,    \
+                                     FragmentNumber<FragmentArithmetic::fp32Flush>::Type>); \
+        static_assert(std::is_same_v<FragmentNumber<FragmentArithmetic::fp16Nv40>::Type,    \
+                                     FragmentNumber<FragmentArithmetic::fp16>::Type>);      \
+        switch (arithmetic) {                                                               \
+            ETALON_FOR_EACH_LANE_ARITHMETIC(ETALON_ARITHMETIC_CASE, function)               \
+            case FragmentArithmetic::fp32Nv40:                                              \
+                return function##_fp32Flush();                                              \
+            case FragmentArithmetic::fp16Nv40:                                              \
+                return function##_fp16();                                                   \
+            case FragmentArithmetic::truth:                                                 \
+                break;                                                                      \
+        }                                                                                   \
+        ETALON_CHECK(false, "arithmetic {}", static_cast<int>(arithmetic));                 \
+        __builtin_unreachable();                                                            \
     }
 #define ETALON_ARITHMETIC_CASE(name, function) \
     case FragmentArithmetic::name:             \
