@@ -60,8 +60,8 @@ std::vector<BitPlane> shadowAndLookUp(const Profile& profile, const RasterOption
     // Points between the texels, some beyond the texture.
     LitPoints points;
     for (int i = 0; i < 4096; i++) {
-        const glm::dvec3 p =
-            shadow.grid.toWorld(-8.0 + (i % 64) * (80.0 / 64), -8.0 + (i / 64) * (80.0 / 64));
+        const int column = i % 64, row = i / 64;
+        const glm::dvec3 p = shadow.grid.toWorld(-8.0 + column * (80.0 / 64), -8.0 + row * (80.0 / 64));
         for (int c = 0; c < 3; c++) points.position_m[static_cast<size_t>(c)].push_back(p[c]);
         points.instance.push_back(demo.instance);
     }
