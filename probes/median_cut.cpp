@@ -120,13 +120,15 @@ ImagePoint placeOf(const TexelRegion& r, const EnergyTable& table, std::span<con
         [&](int i, int j) { return twice(r.x0, r.x1, i, j); });
 }
 
-// The radiance with black texels where it is not valid.
-Image<float> maskedRadiance(const Probe& probe) {
-    Image<float> radiance = probe.radiance[0];
+// The radiance with black texels where it is not valid: the probe's own image, or a copy that is kept in
+// `masked`.
+const Image<float>& countedRadiance(const Probe& probe, Image<float>& masked) {
+    if (probe.valid.empty()) return probe.radiance[0];
+    masked = probe.radiance[0];
     for (int c = 0; c < 3; c++)
-        for (size_t i = 0; i < radiance.pixelCount(); i++)
-            if (probe.valid[0].values()[i] == 0) radiance.plane(c)[i] = 0.0f;
-    return radiance;
+        for (size_t i = 0; i < masked.pixelCount(); i++)
+            if (probe.valid[0].values()[i] == 0) masked.plane(c)[i] = 0.0f;
+    return masked;
 }
 
 std::optional<glm::dvec3> positionAt(const Probe& probe, const ImagePoint& p, const glm::dvec3& direction) {
@@ -137,6 +139,36 @@ std::optional<glm::dvec3> positionAt(const Probe& probe, const ImagePoint& p, co
     const double metres = distance.at(x, y);
     if (!(metres > 0.0 && metres <= std::numeric_limits<double>::max())) return std::nullopt;
     return probe.position_m + metres * direction;
+}
+
+// Of a probe whose counted radiance is `radiance`.
+LightsOfProbe lightsIn(const Image<float>& radiance, const Probe& probe, const EnergyTable& table,
+                       std::span<const TexelRegion> regions, const MedianCut& options, int threads) {
+    const int width = probe.shape.width, height = probe.shape.height;
+    ETALON_CHECK(
+        probe.shape.mapping == Mapping::latLong && table.width() == width && table.height() == height,
+        "mapping {}, {}x{} texels, table of {}x{}", static_cast<int>(probe.shape.mapping), width, height,
+        table.width(), table.height());
+    const std::vector<double> weights = texelWeights(width, height, options.weight);
+    const std::vector<double> solidAngles = texelWeights(width, height, TexelWeight::exact);
+    LightsOfProbe result;
+    result.lights.resize(regions.size());
+    std::vector<size_t> uncounted(regions.size());
+    parallelFor(regions.size(), threads, [&](size_t i) {
+        const TexelRegion& r = regions[i];
+        ProbeLight& light = result.lights[i];
+        light.region = r;
+        const RegionSums sums = probePasses().energy.regionSums(radiance, r, weights.data());
+        light.energy = sums.energy;
+        uncounted[i] = sums.uncountedValues;
+        for (int y = r.y0; y < r.y1; y++)
+            light.solidAngle_sr += solidAngles[static_cast<size_t>(y)] * r.width();
+        const ImagePoint point = placeOf(r, table, weights, options.place);
+        light.direction = probe.rotation * latLongDirection(point, width, height);
+        light.position_m = positionAt(probe, point, light.direction);
+    });
+    for (const size_t count : uncounted) result.uncountedValues += count;
+    return result;
 }
 
 }  // namespace
@@ -177,43 +209,18 @@ std::vector<TexelRegion> medianCutRegions(const EnergyTable& table, const Median
 
 LightsOfProbe lightsOfRegions(const Probe& probe, const EnergyTable& table,
                               std::span<const TexelRegion> regions, const MedianCut& options, int threads) {
-    const int width = probe.shape.width, height = probe.shape.height;
-    ETALON_CHECK(
-        probe.shape.mapping == Mapping::latLong && table.width() == width && table.height() == height,
-        "mapping {}, {}x{} texels, table of {}x{}", static_cast<int>(probe.shape.mapping), width, height,
-        table.width(), table.height());
     Image<float> masked;
-    if (!probe.valid.empty()) masked = maskedRadiance(probe);
-    const Image<float>& radiance = probe.valid.empty() ? probe.radiance[0] : masked;
-    const std::vector<double> weights = texelWeights(width, height, options.weight);
-    const std::vector<double> solidAngles = texelWeights(width, height, TexelWeight::exact);
-    LightsOfProbe result;
-    result.lights.resize(regions.size());
-    std::vector<size_t> uncounted(regions.size());
-    parallelFor(regions.size(), threads, [&](size_t i) {
-        const TexelRegion& r = regions[i];
-        ProbeLight& light = result.lights[i];
-        light.region = r;
-        const RegionSums sums = probePasses().energy.regionSums(radiance, r, weights.data());
-        light.energy = sums.energy;
-        uncounted[i] = sums.uncountedValues;
-        for (int y = r.y0; y < r.y1; y++)
-            light.solidAngle_sr += solidAngles[static_cast<size_t>(y)] * r.width();
-        const ImagePoint point = placeOf(r, table, weights, options.place);
-        light.direction = probe.rotation * latLongDirection(point, width, height);
-        light.position_m = positionAt(probe, point, light.direction);
-    });
-    for (const size_t count : uncounted) result.uncountedValues += count;
-    return result;
+    return lightsIn(countedRadiance(probe, masked), probe, table, regions, options, threads);
 }
 
 LightsOfProbe medianCutLights(const Probe& probe, const MedianCut& options, int threads) {
     ETALON_CHECK(probe.shape.mapping == Mapping::latLong && options.log2Count >= 0, "mapping {}, 2^{} lights",
                  static_cast<int>(probe.shape.mapping), options.log2Count);
     const std::vector<double> weights = texelWeights(probe.shape.width, probe.shape.height, options.weight);
-    const EnergyTable table(probe.valid.empty() ? probe.radiance[0] : maskedRadiance(probe), weights,
-                            threads);
-    return lightsOfRegions(probe, table, medianCutRegions(table, options), options, threads);
+    Image<float> masked;
+    const Image<float>& radiance = countedRadiance(probe, masked);
+    const EnergyTable table(radiance, weights, threads);
+    return lightsIn(radiance, probe, table, medianCutRegions(table, options), options, threads);
 }
 
 }  // namespace etalon
