@@ -244,18 +244,24 @@ TEST_CASE("EvaluationInEveryArithmeticIsNearTheFunction") {
 }
 
 TEST_CASE("WhiteFurnaceHasTheMeanOfTwoRootPi") {
-    for (const FragmentArithmetic a : kAllArithmetics)
-        for (const ProbeShape& shape : {ProbeShape{Mapping::latLong, 64, 32}, {Mapping::cube, 16, 16}}) {
-            const SphericalHarmonics f = projectHarmonics(constantProbe(shape, 1), 4, a);
-            const SphericalHarmonics exact =
-                projectHarmonics(constantProbe(shape, 1), 4, FragmentArithmetic::fp64);
-            const double mean = f.coefficients[0].x;
+    for (const Furnace& furnace : kFurnaces) {
+        CAPTURE(static_cast<int>(furnace.shape.mapping));
+        CAPTURE(furnace.shape.ballDistance_radii);
+        const Probe white = constantProbe(furnace.shape, 1);
+        const SphericalHarmonics exact = projectHarmonics(white, 4, FragmentArithmetic::truth);
+        const double expected = 2 * std::sqrt(kPi) * (furnace.shown_sr() / (4 * kPi));
+        CHECK(std::abs(exact.coefficients[0].x / expected - 1) <= 1e-14);
+        CHECK(std::abs(projectHarmonics(white, 4).coefficients[0].x / expected - 1) <= 1e-14);
+        for (const FragmentArithmetic a : kAllArithmetics) {
+            const SphericalHarmonics f = projectHarmonics(white, 4, a);
             CAPTURE(static_cast<int>(a));
-            CHECK(std::abs(mean / (2 * std::sqrt(kPi)) - 1) <= harmonicErrorBound(a));
+            CAPTURE(f.coefficients[0].x / expected - 1);
+            CHECK(std::abs(f.coefficients[0].x / expected - 1) <= harmonicErrorBound(a));
             for (size_t i = 1; i < f.coefficients.size(); i++)
                 CHECK(std::abs(f.coefficients[i].x - exact.coefficients[i].x) <=
                       4 * harmonicErrorBound(a) * 2 * std::sqrt(kPi));
         }
+    }
 }
 
 TEST_CASE("ExtremeProbesHaveFiniteHarmonicsThatKeepTheirEnergy") {
