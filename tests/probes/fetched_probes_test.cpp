@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <string>
 
+#include "probes/probe_errors.h"
 #include "probes/spherical_harmonics.h"
 #include "tests/probes/defined_harmonics.h"
 #include "tests/probes/made_probes.h"
@@ -146,7 +147,7 @@ TEST_CASE("HarmonicsOfFetchedProbesKeepTheBoundOfEachArithmetic") {
             for (size_t c = 0; c < 3; c++) mean = std::max(mean, asDouble(direct[p][c]));
             const double error = largestDifference(f, direct[p]) / mean;
             CAPTURE(error);
-            CHECK(error <= 4 * harmonicErrorBound(a));
+            CHECK(error <= 4 * probeErrors(a).harmonic);
         }
 }
 

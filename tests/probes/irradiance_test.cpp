@@ -6,6 +6,7 @@
 
 #include "probes/harmonics_lobes.h"
 #include "probes/harmonics_rotation.h"
+#include "probes/probe_errors.h"
 #include "tests/probes/made_probes.h"
 
 namespace etalon {
@@ -82,8 +83,8 @@ TEST_CASE("WhiteFurnaceIsPi") {
             CAPTURE(static_cast<int>(a));
             const double error = largestRelative(irradianceAt(white, normals, a), exact);
             CAPTURE(error);
-            CHECK(error <= irradianceErrorBound(a));
-            CHECK(largestRelative(evaluateHarmonics(f, normals, a), smooth) <= irradianceErrorBound(a));
+            CHECK(error <= probeErrors(a).irradiance);
+            CHECK(largestRelative(evaluateHarmonics(f, normals, a), smooth) <= probeErrors(a).irradiance);
         }
     }
 }
@@ -96,7 +97,7 @@ TEST_CASE("IrradianceInEveryArithmeticKeepsItsBound") {
         CAPTURE(static_cast<int>(a));
         const double error = largestRelative(irradianceAt(probe, normals, a), exact);
         CAPTURE(error);
-        CHECK(error <= irradianceErrorBound(a));
+        CHECK(error <= probeErrors(a).irradiance);
     }
 }
 
@@ -167,7 +168,7 @@ TEST_CASE("ExtremeProbesHaveFiniteIrradiance") {
                 worst = std::max(worst, std::abs(values[i].x - exact[i].x));
             }
             CAPTURE(worst / largest);
-            CHECK(worst <= irradianceErrorBound(a) * largest);
+            CHECK(worst <= probeErrors(a).irradiance * largest);
         };
         for (const ProbeShape& shape : {ProbeShape{Mapping::latLong, 16, 8}, {Mapping::cube, 5, 5}}) {
             // Half floats limit the sun to 65504 (probes/flux.h).

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "probes/harmonics_passes.h"
+#include "probes/probe_errors.h"
 #include "tests/probes/defined_harmonics.h"
 #include "tests/probes/made_probes.h"
 
@@ -201,7 +202,7 @@ TEST_CASE("EvaluationInEveryArithmeticIsNearTheFunction") {
             for (int c = 0; c < 3; c++)
                 worst = std::max(worst, std::abs(values[i][c] - evaluate(f, directions[i])[c]));
         CAPTURE(static_cast<int>(a));
-        CHECK(worst <= 8 * harmonicErrorBound(a));
+        CHECK(worst <= 8 * probeErrors(a).harmonic);
     }
 }
 
@@ -218,10 +219,10 @@ TEST_CASE("WhiteFurnaceHasTheMeanOfTwoRootPi") {
             const SphericalHarmonics f = projectHarmonics(white, 4, a);
             CAPTURE(static_cast<int>(a));
             CAPTURE(f.coefficients[0].x / expected - 1);
-            CHECK(std::abs(f.coefficients[0].x / expected - 1) <= harmonicErrorBound(a));
+            CHECK(std::abs(f.coefficients[0].x / expected - 1) <= probeErrors(a).harmonic);
             for (size_t i = 1; i < f.coefficients.size(); i++)
                 CHECK(std::abs(f.coefficients[i].x - exact.coefficients[i].x) <=
-                      4 * harmonicErrorBound(a) * 2 * std::sqrt(kPi));
+                      4 * probeErrors(a).harmonic * 2 * std::sqrt(kPi));
         }
     }
 }
@@ -240,7 +241,7 @@ TEST_CASE("ExtremeProbesHaveFiniteHarmonicsThatKeepTheirEnergy") {
             const double energy = projectHarmonics(limited, 2).coefficients[0].x;
             const SphericalHarmonics f = projectHarmonics(probe, 2, a);
             for (const glm::dvec3& c : f.coefficients) REQUIRE(std::isfinite(c.x));
-            CHECK(std::abs(f.coefficients[0].x - energy) <= harmonicErrorBound(a) * energy);
+            CHECK(std::abs(f.coefficients[0].x - energy) <= probeErrors(a).harmonic * energy);
         };
         for (const ProbeShape& shape : {ProbeShape{Mapping::latLong, 16, 8}, {Mapping::cube, 5, 5}}) {
             Probe sun = constantProbe(shape, 1e-3);
