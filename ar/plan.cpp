@@ -28,6 +28,7 @@ class Planner {
         planVertexLighting();
         planCubes();
         planEnvironment();
+        planOcclusion();
         planShadows();
         planSurfaceImages();
         planBeauty();
@@ -157,6 +158,25 @@ class Planner {
                 {"geometry"});
             if (visible(i)) addNeed("mirror", name);
         }
+    }
+
+    // Of what the ambient light and the environment's diffuse light reach, where the scene asks for it.
+    void planOcclusion() {
+        if (scene_.render.occlusionDirections == 0) return;
+        const bool environment =
+            plan_.environmentLight && !environmentHasLights() && (runs("diffuse") || anyCube());
+        plan_.occlusion = runs("ambient") || environment || (anyCube() && isFinitePositive(scene_.ambient));
+        add("ambient occlusion", plan_.occlusion,
+            plan_.occlusion ? fmt::format("surfaces see their surroundings from {} directions",
+                                          scene_.render.occlusionDirections)
+                            : "nothing that runs is lit from everywhere",
+            {"geometry", "visibility"});
+        if (!plan_.occlusion) return;
+        if (runs("ambient")) addNeed("ambient", "ambient occlusion");
+        if (environment && runs("diffuse")) addNeed("diffuse", "ambient occlusion");
+        if (plan_.lightVertices) addNeed("vertex lighting", "ambient occlusion");
+        for (size_t i = 0; i < objects_.size(); i++)
+            if (plan_.objectCube[i]) addNeed("cube map of " + objects_[i].name, "ambient occlusion");
     }
 
     // What each light asks for, if something lies in its way.
@@ -329,6 +349,13 @@ class Planner {
             if (!plan_.objectCube[i]) continue;
             const auto size = static_cast<uint64_t>(scene_.meshes[objects_[i].index].cubeSize);
             bytes += kFacesPerCube * size * size * 4 * kBytesPerFloat;
+        }
+        // One depth map at a time, and a point and its sums for each fragment.
+        if (plan_.occlusion) {
+            constexpr uint64_t kBytesPerPoint = 256;
+            const auto size = static_cast<uint64_t>(scene_.render.occlusionMapSize);
+            bytes += size * size * kBytesPerSample +
+                     pixels * static_cast<uint64_t>(scene_.render.samples) * kBytesPerPoint;
         }
         uint64_t volumes = 0;
         for (const PlanShadow& shadow : plan_.shadows) {

@@ -65,6 +65,7 @@ struct Plan {
     bool environmentLight = false;  // what it lights surfaces with
     std::vector<bool> objectCube;   // for each of planObjects: render its cube map
     bool lightVertices = false;     // lights are evaluated at vertices
+    bool occlusion = false;         // what surfaces see of their surroundings
     // Of the scene's lights in their order, then of the environment's, as far as these are known.
     std::vector<PlanShadow> shadows;
     bool depth = false, ids = false, coverage = false, toneMap = false;

@@ -10,6 +10,7 @@
 #include "raster/depth.h"
 #include "raster/rules.h"
 #include "shadows/casting_lights.h"
+#include "shadows/surface_occlusion.h"
 
 namespace etalon {
 namespace {
@@ -152,14 +153,20 @@ class SceneRenderer {
             request.excluded = i;
             request.visibility = shadows_.common();
             request.visibilityOf = [&](const View& face) { return shadows_.ofView(face, 1, i); };
+            if (result_.plan.occlusion)
+                request.occlusionOf = [&](const ShadeJob& face) {
+                    return fragmentOcclusion(face, occlusionOptions());
+                };
             cubes_[i].emplace(renderCubeMap(surfaces_, placed_, request,
                                             environmentCube_ ? &*environmentCube_ : nullptr, profile_,
                                             options_.raster));
         }
     }
 
+    DirectionalOptions occlusionOptions() const {
+        return {scene_.render.occlusionDirections, scene_.render.occlusionMapSize, options_.raster};
+    }
     void shadeView() {
-        progress("shading");
         ShadeJob job = shadeJobOf(*visible_, surfaces_, placed_, view_, profile_, options_.raster);
         job.environmentCube = environmentCube_ ? &*environmentCube_ : nullptr;
         for (size_t i = 0; i < cubes_.size(); i++)
@@ -168,11 +175,18 @@ class SceneRenderer {
             shadows_.ofView(view_, scene_.render.samples, kNoInstance);
         job.visibility = ofView ? ofView.get() : shadows_.common();
         job.request = result_.plan.request;
+        if (result_.plan.occlusion) progress("ambient occlusion");
         std::vector<VertexRadiance> radiance;
+        TileOcclusion occlusion;
         if (result_.plan.lightVertices) {
-            radiance = lightVerticesOf(job);
+            radiance = lightVerticesOf(job, result_.plan.occlusion ? vertexOcclusion(job, occlusionOptions())
+                                                                   : std::vector<VertexOcclusion>{});
             job.vertexRadiance = &radiance;
+        } else if (result_.plan.occlusion) {
+            occlusion = fragmentOcclusion(job, occlusionOptions());
+            job.occlusion = &occlusion;
         }
+        progress("shading");
         shaded_ = shade(job, &result_.shading);
     }
 

@@ -85,6 +85,8 @@ inline constexpr std::string_view kEnvironmentLightMethods[] = {"none",  "lights
                                                                 "exact", "map",    "blurred"};
 // Most lights of a median cut, largest edge of a map of irradiance.
 inline constexpr int kMaxEnvironmentLights = 65536, kMaxLightMapSize = 512;
+// Most directions of ambient occlusion, and largest edge of their depth maps.
+inline constexpr int kMaxOcclusionDirections = 4096, kMaxOcclusionMapSize = 8192;
 // Most lights of an environment that cast shadows.
 inline constexpr int kMaxShadowLights = 256;
 
@@ -175,6 +177,9 @@ struct Render {
     int samples = 1;              // per pixel: 1, 4 or 16
     std::string profile = "f32";  // of profiles()
     bool perVertex = false;       // lights are evaluated at vertices (Gouraud), else at pixels (Phong)
+    // Directions that ambient occlusion is found from, and texels along an edge of the depth map of each
+    // (shadows/ambient_occlusion.h). 0 directions: surfaces see all of their surroundings.
+    int occlusionDirections = 0, occlusionMapSize = 512;
     uint64_t seed = 0;
 };
 

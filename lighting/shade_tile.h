@@ -20,7 +20,9 @@ template <class T>
 class TileShaderOf final : public TileShader {
   public:
     explicit TileShaderOf(const ShadeJob& job);
-    void run(const PixelRectangle& rectangle, ShadedImages& images, ShadeStatistics& statistics) override;
+    void run(size_t number, const PixelRectangle& rectangle, ShadedImages& images,
+             ShadeStatistics& statistics) override;
+    LitPoints points(const PixelRectangle& rectangle) override;
 
   private:
     using K = ShadingKernels<T>;
@@ -60,12 +62,15 @@ class TileShaderOf final : public TileShader {
     };
 
     static vec3 constant(const glm::dvec3& v) { return Lighting::constant(v); }
+    void collect(const PixelRectangle& rectangle);
     void setUpTriangles();
     void setFaceNormal(size_t number, uint32_t id, const PlacedMesh& placed);
     size_t bucketOf(const SurfaceMaterial& material, const CubeMap<float>* cube);
     void sortIntoBuckets();
     Group groupOf(std::span<const uint32_t> fragments) const;
+    void findPoints();
     void findVisibility();
+    typename Lighting::Surroundings surroundingsOf(const Weights& w, const Group& group) const;
     void shadeBackground(const Group& group);
     void shadeSurface(const Bucket& bucket, const Group& group);
     vec3 albedo(const SurfaceMaterial& material, const Weights& w, const Group& group);
@@ -84,7 +89,9 @@ class TileShaderOf final : public TileShader {
     Lighting lighting_;
     SamplerSettings sampler_;
     vec3 ambient_, eye_;
-    std::vector<bool> casts_;  // for each light whether its visibility is asked for; empty: for none
+    std::vector<bool> casts_;    // for each light whether its visibility is asked for; empty: for none
+    bool hasOcclusion_ = false;  // else all is open
+    const std::vector<Occlusion>* occlusion_ = nullptr;  // of the tile's fragments, where these have it
     LitPoints points_;
     std::vector<double> visibility_;  // for each light, of every fragment
     TileFragments tile_;
@@ -101,6 +108,10 @@ TileShaderOf<T>::TileShaderOf(const ShadeJob& job)
     ambient_ = constant(job.scene->ambient);
     eye_ = constant(job.view->eye);
     buckets_.push_back(Bucket{nullptr, nullptr, {}});
+    hasOcclusion_ = job.occlusion || (job.vertexRadiance &&
+                                      std::ranges::any_of(*job.vertexRadiance, [](const VertexRadiance& of) {
+                                          return !of.sides[0].open.empty();
+                                      }));
     const ShadeRequest& request = job.request;
     if (!job.visibility || job.vertexRadiance ||
         !(request.needs(ShadeOutput::diffuse) || request.needs(ShadeOutput::specular)))
@@ -109,14 +120,28 @@ TileShaderOf<T>::TileShaderOf(const ShadeJob& job)
     if (std::find(casts_.begin(), casts_.end(), true) == casts_.end()) casts_.clear();
 }
 
+// Lists what is visible and sorts it by what shades it.
 template <class T>
-void TileShaderOf<T>::run(const PixelRectangle& rectangle, ShadedImages& images,
-                          ShadeStatistics& statistics) {
-    // List what is visible, sort it by what shades it, shade, write the images.
+void TileShaderOf<T>::collect(const PixelRectangle& rectangle) {
     tile_.collect(*job_.target, rectangle);
     setUpTriangles();
     sortIntoBuckets();
+}
+
+template <class T>
+LitPoints TileShaderOf<T>::points(const PixelRectangle& rectangle) {
+    collect(rectangle);
+    findPoints();
+    return points_;
+}
+
+template <class T>
+void TileShaderOf<T>::run(size_t number, const PixelRectangle& rectangle, ShadedImages& images,
+                          ShadeStatistics& statistics) {
+    // List what is visible, shade, write the images.
+    collect(rectangle);
     findVisibility();
+    occlusion_ = job_.occlusion ? &(*job_.occlusion)[number] : nullptr;
     for (size_t o = 0; o < kShadeOutputs; o++)
         if (job_.request.wanted[o]) values_[o].assign(3 * tile_.size(), Stored(0));
     for (size_t b = 0; b < buckets_.size(); b++) {
@@ -204,11 +229,9 @@ typename TileShaderOf<T>::Group TileShaderOf<T>::groupOf(std::span<const uint32_
     return group;
 }
 
-// What reaches the tile's fragments of the lights that may be blocked. The points of the background stand
-// there, too, as zeros.
+// The points of the background stand there, too, as zeros.
 template <class T>
-void TileShaderOf<T>::findVisibility() {
-    if (casts_.empty()) return;
+void TileShaderOf<T>::findPoints() {
     const size_t count = tile_.size();
     for (auto* vectors : {&points_.position_m, &points_.normal, &points_.faceNormal})
         for (std::vector<double>& component : *vectors) component.assign(count, 0);
@@ -239,9 +262,18 @@ void TileShaderOf<T>::findVisibility() {
         if (bucketOfTriangle_[triangle] == 0) continue;
         const uint32_t id = tile_.triangles[triangle];
         points_.instance[f] = job_.instanceOfDraw[job_.target->triangles[id].draw];
+        if (faceNormals_.empty()) continue;
         const glm::dvec3 face = faceNormals_[triangle];
         for (int c = 0; c < 3; c++) points_.faceNormal[static_cast<size_t>(c)][f] = face[c];
     }
+}
+
+// What reaches the tile's fragments of the lights that may be blocked.
+template <class T>
+void TileShaderOf<T>::findVisibility() {
+    if (casts_.empty()) return;
+    findPoints();
+    const size_t count = tile_.size();
     visibility_.assign(casts_.size() * count, 1);
     for (size_t l = 0; l < casts_.size(); l++)
         if (casts_[l]) job_.visibility->find(l, points_, std::span(visibility_).subspan(l * count, count));
@@ -270,6 +302,21 @@ void TileShaderOf<T>::shadeBackground(const Group& group) {
     const vec3 radiance = sampleEnvironment(direction);
     put(ShadeOutput::background, group, radiance);
     put(ShadeOutput::beauty, group, radiance);
+}
+
+// At the fragments or, where these are lit by their vertices, interpolated; then the bent normal is not used.
+template <class T>
+typename TileShaderOf<T>::Lighting::Surroundings TileShaderOf<T>::surroundingsOf(const Weights& w,
+                                                                                 const Group& group) const {
+    if (job_.vertexRadiance) return {triangles_.open(w, group.lanes), constant(glm::dvec3(0))};
+    const auto load = [&](const auto& valueOf) {
+        return generateNumber<T>([&](int i) {
+            const size_t last = group.fragments.size() - 1;
+            return valueOf((*occlusion_)[group.fragments[std::min(static_cast<size_t>(i), last)]]);
+        });
+    };
+    const auto bent = [&](int c) { return load([c](const Occlusion& of) { return of.bentNormal[c]; }); };
+    return {load([](const Occlusion& of) { return of.open; }), {bent(0), bent(1), bent(2)}};
 }
 
 template <class T>
@@ -308,15 +355,23 @@ void TileShaderOf<T>::shadeSurface(const Bucket& bucket, const Group& group) {
         sum = kernels_.add3(sum, radiance);
     };
     const vec3 surface = ambient || diffuse ? albedo(material, w, group) : sum;
-    if (ambient) add(ShadeOutput::ambient, kernels_.mul3(surface, ambient_));
+    const bool isOccluded = hasOcclusion_ && (ambient || diffuse);
+    const auto surroundings = isOccluded ? surroundingsOf(w, group) : typename Lighting::Surroundings{};
+    if (ambient) {
+        const vec3 arriving = isOccluded ? kernels_.scale3(ambient_, surroundings.open) : ambient_;
+        add(ShadeOutput::ambient, kernels_.mul3(surface, arriving));
+    }
     if (job_.vertexRadiance) {
         if (diffuse) add(ShadeOutput::diffuse, triangles_.diffuseRadiance(w, group.lanes));
         if (specular) add(ShadeOutput::specular, triangles_.specularRadiance(w, group.lanes));
     } else {
         const typename Lighting::Point point{position, n, toEye};
-        const auto lights = casts_.empty() ? lighting_.reflected(material, point, surface, diffuse, specular)
-                                           : lighting_.reflected(material, point, surface, diffuse, specular,
-                                                                 Shadows{*this, group});
+        const auto reflected = [&](const auto& shadows) {
+            return lighting_.reflected(material, point, surface, diffuse, specular, shadows,
+                                       isOccluded ? &surroundings : nullptr);
+        };
+        const auto lights =
+            casts_.empty() ? reflected(typename Lighting::Unshadowed{}) : reflected(Shadows{*this, group});
         if (diffuse) add(ShadeOutput::diffuse, lights.diffuse);
         if (specular) add(ShadeOutput::specular, lights.specular);
     }

@@ -272,9 +272,7 @@ TEST_CASE("ShadowsAreReadAsWritten") {
 
 TEST_CASE("ShadowsOfTheEnvironmentAreReadAsWritten") {
     const SceneFolder folder;
-    const auto with = [&](const std::string& keys) {
-        return sceneText(20, "constant = [1, 1, 1]\n" + keys);
-    };
+    const auto with = [&](const std::string& keys) { return sceneText(20, "constant = [1, 1, 1]\n" + keys); };
     const auto read = [&](const std::string& keys) {
         return folder.load(with("lighting = 'lights'\n" + keys)).environment;
     };
