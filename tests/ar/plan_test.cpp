@@ -247,8 +247,38 @@ TEST_CASE("LightsOfAnEnvironmentThatCastAreNamed") {
     CHECK_FALSE(makePlan(scene, request).find("shadows of environment lights")->runs);
 }
 
+TEST_CASE("OcclusionRunsForLightFromEverywhere") {
+    Scene scene = fullScene();
+    CHECK(makePlan(scene, {}).find("ambient occlusion") == nullptr);
+    scene.render.occlusionDirections = 64;
+    const Plan plan = makePlan(scene, {});
+    CHECK(plan.occlusion);
+    CHECK(std::ranges::count(plan.find("ambient")->needs, "ambient occlusion") == 1);
+    CHECK(std::ranges::count(plan.find("diffuse")->needs, "ambient occlusion") == 0);
+    CHECK(plan.memory_bytes > makePlan(fullScene(), {}).memory_bytes);
+    // The environment's light is, its lights are not.
+    scene.ambient = glm::dvec3(0);
+    CHECK_FALSE(makePlan(scene, {}).occlusion);
+    for (const auto& [method, runs] : {std::pair(EnvironmentLightMethod::lights, false),
+                                       std::pair(EnvironmentLightMethod::dominant, false),
+                                       std::pair(EnvironmentLightMethod::harmonics, true),
+                                       std::pair(EnvironmentLightMethod::exact, true)}) {
+        scene.environment.lighting = method;
+        const Plan lit = makePlan(scene, {});
+        CHECK(lit.occlusion == runs);
+        CHECK((std::ranges::count(lit.find("diffuse")->needs, "ambient occlusion") == 1) == runs);
+    }
+    PlanRequest request;
+    request.outputs = {"specular", "depth"};
+    CHECK(makePlan(scene, request).find("ambient occlusion")->reason ==
+          "nothing that runs is lit from everywhere");
+}
+
 TEST_CASE("EveryPassHasAReasonAndNeedsPassesOfThePlan") {
-    for (const Scene& scene : {bareScene(), fullScene()}) {
+    Scene occluded = fullScene();
+    occluded.render.occlusionDirections = 64;
+    occluded.render.perVertex = true;
+    for (const Scene& scene : {bareScene(), fullScene(), occluded}) {
         const Plan plan = makePlan(scene, {});
         for (const PlanPass& pass : plan.passes) {
             CHECK_FALSE(pass.reason.empty());

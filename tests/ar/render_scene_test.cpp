@@ -74,6 +74,21 @@ TEST_CASE("ThreadsAndTilesChangeNoBitOfAFrame") {
     }
 }
 
+TEST_CASE("ThreadsAndTilesChangeNoBitOfOcclusion") {
+    for (const bool perVertex : {false, true}) {
+        Scene scene = loadScene("golden/scenes/environment_occlusion.toml");
+        scene.render.perVertex = perVertex;
+        scene.render.occlusionDirections = 24;
+        scene.render.occlusionMapSize = 128;
+        scene.meshes[1].cubeSize = 16;
+        const Frame reference = frameOf(scene, withRaster(1, 64));
+        for (const auto& [threads, tile] : {std::pair(2, 32), std::pair(7, 16)})
+            CHECK(sameBits(frameOf(scene, withRaster(threads, tile)), reference));
+        scene.render.occlusionDirections = 0;
+        CHECK_FALSE(sameBits(frameOf(scene), reference));
+    }
+}
+
 TEST_CASE("AnEffectThatNoOutputNeedsChangesNoBit") {
     Scene scene = loadScene("scenes/minimal.toml");
     scene.output.images = {"depth", "ids", "normals", "diffuse"};

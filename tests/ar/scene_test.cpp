@@ -302,6 +302,23 @@ TEST_CASE("ShadowsOfTheEnvironmentAreReadAsWritten") {
     says(lights + "shadow = 'map'\nshadow_light_size_m = 1\n", "not used by directional lights");
 }
 
+TEST_CASE("OcclusionIsReadAsWritten") {
+    const SceneFolder folder;
+    const auto with = [&](const std::string& keys) { return sceneText(5, keys); };
+    CHECK(folder.load(with("occlusion = 0")).render.occlusionDirections == 0);
+    const Render plain = folder.load(with("occlusion = 100")).render;
+    CHECK(plain.occlusionDirections == 100);
+    CHECK(plain.occlusionMapSize == 512);
+    CHECK(folder.load(with("occlusion = 1\nocclusion_size = 64")).render.occlusionMapSize == 64);
+    for (const auto& [keys, text] :
+         {std::pair("occlusion = 4097", "[0, 4096]"), std::pair("occlusion_size = 64", "needs 'occlusion'"),
+          std::pair("occlusion = 0\nocclusion_size = 64", "needs 'occlusion'"),
+          std::pair("occlusion = 1\nocclusion_size = 0", "[1, 8192]")}) {
+        const std::string error = errorOf(folder, with(keys));
+        CHECK_MESSAGE(error.find(text) != std::string::npos, error);
+    }
+}
+
 TEST_CASE("InstancesAreAppliedAfterTheMeshsOwnTransform") {
     const SceneFolder folder;
     const Scene scene = folder.load(

@@ -291,7 +291,7 @@ TEST_CASE("FlushingSubnormalsChangesNoBitOfTheShading") {
     {
         const FlushToZeroScope flush;
         ShadeStatistics statistics;
-        shadingPasses(profile.fragment).makeTileShader(job)->run({0, 0, 64, 64}, flushed, statistics);
+        shadingPasses(profile.fragment).makeTileShader(job)->run(0, {0, 0, 64, 64}, flushed, statistics);
     }
     for (size_t o = 0; o < kShadeOutputs; o++) CHECK(flushed.images[o] == kept.images[o]);
 }
