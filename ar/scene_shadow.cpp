@@ -9,9 +9,10 @@ namespace etalon {
 namespace {
 
 // Keys of one method alone, and of more than one.
-constexpr std::string_view kMapKeys[] = {"shadow_depth",      "shadow_faces",          "shadow_bias",
-                                         "shadow_slope_bias", "shadow_receiver_plane", "shadow_filter",
-                                         "shadow_taps",       "shadow_radius_texels"};
+constexpr std::string_view kMapKeys[] = {
+    "shadow_depth",          "shadow_faces",     "shadow_bias", "shadow_slope_bias",
+    "shadow_receiver_plane", "shadow_filter",    "shadow_taps", "shadow_radius_texels",
+    "shadow_normal_offset",  "shadow_reference", "shadow_snap"};
 constexpr std::string_view kPlanarKeys[] = {"shadow_samples", "shadow_blur_m"};
 constexpr std::string_view kCommonKeys[] = {"shadow_size", "shadow_light_size_m", "shadow_light_deg"};
 
@@ -37,6 +38,7 @@ ShadowMapSettings readMap(const TableReader& reader, LightKind kind) {
     constexpr std::string_view kDepths[] = {"d16", "d24", "d32f", "linear"};
     constexpr std::string_view kFaces[] = {"both", "front", "back"};
     constexpr std::string_view kFilters[] = {"hard", "pcf", "disc", "soft"};
+    constexpr std::string_view kReferences[] = {"clamped", "quantised"};
     const auto indexOf = [&](std::string_view key, std::span<const std::string_view> names, auto fallback) {
         if (!reader.has(key)) return fallback;
         const std::string name = reader.choice(key, names);
@@ -52,6 +54,10 @@ ShadowMapSettings readMap(const TableReader& reader, LightKind kind) {
     if (reader.has("shadow_slope_bias"))
         map.bias.slopeScale = reader.number("shadow_slope_bias", kShadowBiasRange);
     if (reader.has("shadow_receiver_plane")) map.receiverPlane = reader.boolean("shadow_receiver_plane");
+    if (reader.has("shadow_normal_offset"))
+        map.normalOffset_texels = reader.number("shadow_normal_offset", {0, kMaxShadowRadius_texels});
+    map.reference = indexOf("shadow_reference", kReferences, map.reference);
+    if (reader.has("shadow_snap")) map.snap = reader.boolean("shadow_snap");
     map.filter = indexOf("shadow_filter", kFilters, map.filter);
     const bool isDisc = map.filter == ShadowFilter::disc, isSoft = map.filter == ShadowFilter::soft;
     if (map.filter == ShadowFilter::hard) reader.forbid("shadow_taps", "is not used by shadow_filter 'hard'");

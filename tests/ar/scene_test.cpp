@@ -217,7 +217,14 @@ TEST_CASE("ShadowsAreReadAsWritten") {
         "point",
         "shadow_size = 64\nshadow_depth = 'linear'\nshadow_faces = 'back'\nshadow_bias = 3\n"
         "shadow_slope_bias = 1.5\nshadow_receiver_plane = false\nshadow_filter = 'soft'\nshadow_taps = 48\n"
-        "shadow_radius_texels = 8\nshadow_light_size_m = 0.25\n");
+        "shadow_radius_texels = 8\nshadow_light_size_m = 0.25\nshadow_normal_offset = 1.5\n"
+        "shadow_reference = 'quantised'\nshadow_snap = false\n");
+    CHECK(soft.normalOffset_texels == 1.5);
+    CHECK(soft.reference == ShadowReference::quantised);
+    CHECK_FALSE(soft.snap);
+    CHECK(plain.normalOffset_texels == 0);
+    CHECK(plain.reference == ShadowReference::clamped);
+    CHECK(plain.snap);
     CHECK(soft.size == 64);
     CHECK(soft.depth == ShadowDepth::linear);
     CHECK(soft.faces == ShadowFaces::back);
@@ -262,6 +269,8 @@ TEST_CASE("ShadowsAreReadAsWritten") {
     says(refused("directional", "shadow = 'map'\nshadow_filter = 'soft'\nshadow_light_size_m = 1\n"),
          "not used by directional lights");
     says(refused("point", "shadow = 'map'\nshadow_light_size_m = 1\n"), "needs shadow_filter = \"soft\"");
+    says(refused("point", "shadow = 'map'\nshadow_normal_offset = -1\n"), "[0, 64]");
+    says(refused("point", "shadow = 'planar'\nshadow_snap = true\n"), "needs shadow = \"map\"");
     says(refused("point", "shadow = 'map'\nshadow_blur_m = 1\n"), "needs shadow = \"planar\"");
     says(refused("point", "shadow_samples = 4\n"), "needs shadow = \"planar\"");
     says(refused("point", "shadow = 'planar'\nshadow_samples = 0\n"), "[1, 4096]");
