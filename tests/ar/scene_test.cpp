@@ -615,7 +615,9 @@ TEST_CASE("ShippedScenesLoad") {
     CHECK(demo.camera.height == 540);
     CHECK(demo.render.samples == 4);
     CHECK(demo.environment.kind == EnvironmentKind::file);
-    CHECK(demo.lights.size() == 3);
+    CHECK(demo.environment.lightCount == 64);
+    CHECK(demo.environment.shadow.method == ShadowMethod::map);
+    CHECK(demo.lights.empty());
 }
 
 }  // namespace
