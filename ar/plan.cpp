@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "probes/dominant_lights.h"
+
 namespace etalon {
 namespace {
 
@@ -205,7 +207,7 @@ class Planner {
             planShadow({fmt::format("environment light {}", caster.light), &environment.shadow,
                         count + caster.light},
                        false,
-                       fmt::format("region of {:.2g} sr, {:.2g} % of the energy; ", caster.solidAngle_sr,
+                       fmt::format("region of {:.3g} sr, {:.3g} % of the energy; ", caster.solidAngle_sr,
                                    100 * caster.share));
     }
     void planShadow(PlanShadow shadow, bool isBlack, const std::string& why) {
@@ -367,9 +369,11 @@ class Planner {
         }
         if (plan_.environmentLight && !(facts_ && facts_->environmentCasters)) {
             const Environment& environment = scene_.environment;
-            const uint64_t most = environment.shadowShare > 0
-                                      ? kMaxShadowLights
-                                      : static_cast<uint64_t>(environment.shadowLights);
+            const int asked = environment.shadowShare > 0 ? kMaxShadowLights : environment.shadowLights;
+            const int lights = environment.lighting == EnvironmentLightMethod::lights
+                                   ? environment.lightCount
+                                   : DominantLightSearch{}.maxLights;
+            const auto most = static_cast<uint64_t>(std::min(asked, lights));
             bytes += most * shadowMemory(environment.shadow, true);
             if (environment.shadow.method == ShadowMethod::volume) volumes += most;
         }

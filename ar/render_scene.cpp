@@ -76,16 +76,24 @@ class SceneRenderer {
         if (options_.progress) options_.progress(pass);
     }
 
+    // Whether memory goes to more than the view.
+    bool hasMaps() const {
+        const Plan& plan = result_.plan;
+        return plan.occlusion || !plan.shadows.empty() ||
+               (plan.environmentLight && scene_.environment.shadow.method != ShadowMethod::none) ||
+               std::ranges::find(plan.objectCube, true) != plan.objectCube.end();
+    }
     void requireMemory() const {
         const uint64_t needed = result_.plan.memory_bytes, present = machineMemory_bytes();
         if (needed <= present) {
             if (options_.announceMemory) options_.announceMemory(needed);
             return;
         }
-        throw InputError(fmt::format(
-            "{}: {}x{} pixels with {} samples need {:.1f} GiB, this machine has {:.1f} GiB",
-            where(scene_, scene_.camera.line), scene_.camera.width, scene_.camera.height,
-            scene_.render.samples, static_cast<double>(needed) / kGiB, static_cast<double>(present) / kGiB));
+        throw InputError(
+            fmt::format("{}: {}x{} pixels with {} samples{} need {:.1f} GiB, this machine has {:.1f} GiB",
+                        where(scene_, scene_.camera.line), scene_.camera.width, scene_.camera.height,
+                        scene_.render.samples, hasMaps() ? ", and the maps that they look up," : "",
+                        static_cast<double>(needed) / kGiB, static_cast<double>(present) / kGiB));
     }
 
     VisibilityFacts visibilityFacts() const {

@@ -225,6 +225,9 @@ TEST_CASE("LightsOfAnEnvironmentThatCastAreNamed") {
     CHECK(first.shadows.empty());
     CHECK(first.memory_bytes == without_bytes + 3 * map_bytes);
 
+    scene.environment.lightCount = 2;
+    CHECK(makePlan(scene, {}).memory_bytes == without_bytes + 2 * map_bytes);
+
     VisibilityFacts facts;
     facts.objectVisible.assign(planObjects(scene).size(), true);
     facts.environmentCasters = {{7, 0.0125, 0.25}, {2, 0.5, 0.125}};
@@ -234,9 +237,9 @@ TEST_CASE("LightsOfAnEnvironmentThatCastAreNamed") {
     CHECK(plan.shadows[0].index == scene.lights.size() + 7);
     CHECK(plan.shadows[0].shadow == &scene.environment.shadow);
     CHECK(plan.find("shadow map of environment light 7")->reason ==
-          "region of 0.013 sr, 25 % of the energy; cast by thing");
+          "region of 0.0125 sr, 25 % of the energy; cast by thing");
     CHECK(plan.find("shadow map of environment light 2")->reason ==
-          "region of 0.5 sr, 12 % of the energy; nothing stands between the light and what is visible");
+          "region of 0.5 sr, 12.5 % of the energy; nothing stands between the light and what is visible");
     CHECK(plan.memory_bytes == without_bytes + map_bytes);
     facts.environmentCasters.emplace();
     facts.shadowObjects.emplace();
