@@ -83,8 +83,8 @@ struct ShadeJob {
 // Shades each visible fragment once, in the profile's fragment arithmetic.
 ShadedImages shade(const ShadeJob& job, ShadeStatistics* statistics = nullptr);
 
-// The points that the fragments of each tile are lit at; tiles row by row. The background stands there, too,
-// with normals of length 0.
+// The points that the fragments of each tile's surfaces are lit at; tiles row by row, in the order that a
+// tile is shaded in.
 std::vector<LitPoints> fragmentPoints(const ShadeJob& job);
 
 // Which instances the job's target shows.
