@@ -124,7 +124,7 @@ void TriangleSetup::addTriangle(const DrawInput& input, uint32_t index,
     t.draw = input.number;
     t.triangle = index;
     triangles.push_back(t);
-    addTilesInside(grid_->tilesOf(box), area > 0 ? edgesOf(a, b, c) : edgesOf(a, c, b));
+    addTilesInside(grid_->tilesOf(box), a, area > 0 ? b : c, area > 0 ? c : b);
     endTiles();
     statistics.records++;
 }
@@ -154,9 +154,11 @@ void TriangleSetup::addTiles(const TileBox& box) {
 }
 
 // The tiles of the box but for those that are beyond one of the edges as a whole. Positive orientation.
-void TriangleSetup::addTilesInside(const TileBox& box, const std::array<EdgeFunction, 3>& edges) {
+void TriangleSetup::addTilesInside(const TileBox& box, const ProjectedVertex& a, const ProjectedVertex& b,
+                                   const ProjectedVertex& c) {
     constexpr int kFewTiles = 4;
     if ((box.x1 - box.x0 + 1) * (box.y1 - box.y0 + 1) <= kFewTiles) return addTiles(box);
+    const std::array<EdgeFunction, 3> edges = edgesOf(a, b, c);
     // The largest E - 1 + ownsZero of each edge among the samples of a tile.
     const auto columns = grid_->samplesOfColumn(box.x0), rows = grid_->samplesOfRow(box.y0);
     std::array<int64_t, 3> ofRow, stepX, stepY;
@@ -232,8 +234,7 @@ void TriangleSetup::addClipped(const DrawInput& input, uint32_t index, const std
         }
         if (isGroup) continue;
         const size_t second = piece > 0 ? i : i + 1, third = piece > 0 ? i + 1 : i;
-        addTilesInside(grid_->tilesOf(grid_->pixelsOf(xMin, yMin, xMax, yMax)),
-                       edgesOf(v[0], v[second], v[third]));
+        addTilesInside(grid_->tilesOf(grid_->pixelsOf(xMin, yMin, xMax, yMax)), v[0], v[second], v[third]);
         endTiles();
     }
     if (!isGroup) return;

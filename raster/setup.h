@@ -61,7 +61,8 @@ class TriangleSetup {
                     int planes);
     void addTile(size_t tile);
     void addTiles(const TileBox& box);
-    void addTilesInside(const TileBox& box, const std::array<EdgeFunction, 3>& edges);
+    void addTilesInside(const TileBox& box, const ProjectedVertex& a, const ProjectedVertex& b,
+                        const ProjectedVertex& c);
     void endTiles() { endOfTiles.push_back(tiles.size()); }
 
     const ViewportTransform* transform_ = nullptr;

@@ -42,7 +42,7 @@ struct Piece {
 };
 
 // What a draw does with its samples; the two special ones are written out for speed.
-//   plain: D32F, less passes and is written, no stencil
+//   plain: less passes and is written, no stencil
 //   counting: less passes, nothing is written but a stencil that every sample adds 1, 0 or -1 to (modulo
 //   256), by
 //             the outcome of the depth test
@@ -66,7 +66,7 @@ bool isCounting(const StencilFace& face) {
     return face.compare == Compare::always && addedBy(face.onDepthFail) != kNoFixedNumber &&
            addedBy(face.onPass) != kNoFixedNumber;
 }
-DrawKind kindOf(const DrawState& state, DepthFormat format) {
+DrawKind kindOf(const DrawState& state) {
     if (state.depthCompare != Compare::less) return DrawKind::any;
     const StencilState& stencil = state.stencil;
     if (stencil.enabled) {
@@ -74,7 +74,7 @@ DrawKind kindOf(const DrawState& state, DepthFormat format) {
         return writesNothingElse && isCounting(stencil.front) && isCounting(stencil.back) ? DrawKind::counting
                                                                                           : DrawKind::any;
     }
-    return state.depthWrite && format == DepthFormat::d32f ? DrawKind::plain : DrawKind::any;
+    return state.depthWrite ? DrawKind::plain : DrawKind::any;
 }
 
 // kGroup pixels of one sample plane.
@@ -373,7 +373,7 @@ void TileRasterizerOfLevel::drawPiece(const Piece& piece) {
     const auto draw = [&]<DrawKind kKind>() {
         piece.isSmall ? drawSmallPiece<Real, kKind>(piece) : drawLargePiece<Real, kKind>(piece);
     };
-    switch (kindOf(*piece.state, format_.depth)) {
+    switch (kindOf(*piece.state)) {
         case DrawKind::any:
             return draw.template operator()<DrawKind::any>();
         case DrawKind::plain:
@@ -623,7 +623,7 @@ template <class Real, DrawKind kKind>
         return count(group, select(covered, ofOutcome, splat(0)));
     }
     if constexpr (kKind == DrawKind::plain) {
-        depth = storedFloatDepth(pieceDepth.at(e));
+        depth = storedByRegister(format_.depth, format_.depthRounding, pieceDepth.at(e));
         passed = covered && depth < stored;
     } else {
         depth = storedByRegister(format_.depth, format_.depthRounding, pieceDepth.at(e));
