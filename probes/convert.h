@@ -13,8 +13,11 @@
 //     that has radiance counts alone, first along x, then along y.
 //   area: samplesPerAxis^2 bilinear samples at the centres of the equal parts of the texel, each weighted
 //   with the
-//     exact solid angle of its part. In order, row by row: weight = weight + w, mean = mean + (sample - mean)
-//     w / weight. Samples without radiance are left out.
+//     solid angle of its part: exact for lat-long, cube, octahedral images and the orthographic mirror ball;
+//     of angular maps and near balls it is the density at the part's centre, which differs by a share that
+//     falls with the square of the part's size, as does the error of the sample itself. Parts whose centre
+//     is beyond the rim weigh nothing. In order, row by row: weight = weight + w, mean = mean + (sample -
+//     mean) w / weight. Samples without radiance are left out.
 // So a constant probe keeps exactly its constant in every arithmetic, results stay in the hull of the texels
 // but for the rounding of the mean, and a non-finite texel makes those results NaN or infinite that it has a
 // weight in.

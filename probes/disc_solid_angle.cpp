@@ -18,12 +18,8 @@ constexpr std::array<double, 5> kWeights = {0.23692688505618909, 0.4786286704993
 // The longest piece that one rule integrates.
 constexpr double kPiece = 0.03125;
 
-double squareRootOfPositive(double a) { return a > 0.0 ? std::sqrt(a) : 0.0; }
-
-// Angles of the first quarter of the unit circle, by sine or cosine in [0, 1].
-double angleOfSine(double s) { return atan2Of(s, squareRootOfPositive((1.0 - s) * (1.0 + s))); }
-double angleOfCosine(double c) { return atan2Of(squareRootOfPositive((1.0 - c) * (1.0 + c)), c); }
-
+// Magnitudes of coordinates on the disc in units of half a texel, so that the rim is at `size`, by their
+// squares: whole numbers, whose differences are exact where those of the coordinates would lose digits.
 class Disc {
   public:
     explicit Disc(const ProbeShape& shape)
@@ -35,45 +31,62 @@ class Disc {
     // Border i of size + 1, in [-1, 1]; borders i and size - i are of opposite sign.
     double border(int i) const { return (2.0 * i - size_) / size_; }
 
-    // The integral of G / r^2 over the part on the disc of edge i at height border(j).
+    // The integral of G / r^2 over the part on the disc of edge i at height border(j). i is in the left half.
     double edge(int i, int j) const {
-        const double y = border(j), reach = squareRootOfPositive((1.0 - y) * (1.0 + y));
-        const double from = std::clamp(border(i), -reach, reach),
-                     to = std::clamp(border(i + 1), -reach, reach);
-        if (!(from < to)) return 0.0;
-        if (isOrthographic_) return 2.0 * (to - from);
-        if (isAngular_) return integral(from, to, [&](double x) { return gOverSquare(x, y); });
+        const Extent x = extent(i);
+        const double height = 2.0 * j - size_, reachSquare = square(size_) - square(height);
+        const double innerSquare = square(x.inner), outerSquare = std::min(square(x.outer), reachSquare);
+        if (!(innerSquare < outerSquare)) return 0.0;
+        const double y = height / size_, inner = x.inner / size_, outer = std::sqrt(outerSquare) / size_;
+        const double length = (outerSquare - innerSquare) / square(size_) / (outer + inner);
+        if (isOrthographic_) return x.count * (2.0 * length);
+        if (isAngular_)
+            return x.count * integral(inner, length, [&](double at) { return angularTerm(at * at + y * y); });
         // x = reach sin(psi) takes the square root at the rim away.
-        return integral(angle(from / reach), angle(to / reach),
-                        [&](double psi) { return reach * cosOf(psi) * gOverSquare(reach * sinOf(psi), y); });
+        const double reach = std::sqrt(reachSquare) / size_;
+        const double psi = arc(reachSquare, innerSquare, 0.0);
+        return x.count * integral(psi, arc(reachSquare, outerSquare, innerSquare), [&](double at) {
+                   return reach * cosOf(at) * ballTerm(reach * sinOf(at), y);
+               });
     }
 
-    // G at the rim times the angle of the rim inside texel (x, y).
+    // G at the rim times the angle of the rim inside texel (x, y) of the upper left quarter.
     double rim(int x, int y) const {
-        double angle_rad = 0.0;
-        for (const auto& [a0, a1] : halves(x))
-            for (const auto& [b0, b1] : halves(y)) {
-                if (!(a0 < a1 && b0 < b1)) continue;
-                const double from = std::max(angleOfCosine(a1), angleOfSine(b0));
-                const double to = std::min(angleOfCosine(a0), angleOfSine(b1));
-                if (from < to) angle_rad += to - from;
-            }
-        return angle_rad * (isAngular_ ? 2.0 : 1.0 + settings_.root);
+        const Extent across = extent(x), along = extent(y);
+        const double all = square(size_);
+        const double from = std::max(square(across.inner), all - square(along.outer));
+        const double to = std::min(square(across.outer), all - square(along.inner));
+        if (!(from < to)) return 0.0;
+        return across.count * along.count * arc(all, to, from) * (isAngular_ ? 2.0 : 1.0 + settings_.root);
     }
 
   private:
-    static double angle(double sine) { return sine < 0.0 ? -angleOfSine(-sine) : angleOfSine(sine); }
+    static double square(double a) { return a * a; }
 
-    // The parts of a texel's extent on both sides of 0, as magnitudes; empty ones have equal ends.
-    std::array<std::array<double, 2>, 2> halves(int i) const {
-        const double from = border(i), to = border(i + 1);
-        return {{{std::max(0.0, from), std::max(0.0, to)}, {std::max(0.0, -to), std::max(0.0, -from)}}};
+    // The magnitudes of column i or row i of the left or upper half; those of the middle of an odd size count
+    // twice.
+    struct Extent {
+        double inner, outer, count;
+    };
+    Extent extent(int i) const {
+        const double outer = size_ - 2.0 * i;
+        return outer > 1.0 ? Extent{outer - 2.0, outer, 1.0} : Extent{0.0, outer, 2.0};
     }
 
+    // asin(sqrt(upper / whole)) - asin(sqrt(lower / whole)) for 0 <= lower < upper <= whole and 0 for lower =
+    // upper, each of them exact. With sines s and t of the two angles, sin^2 = s^2 - t^2 over the sum.
+    static double arc(double whole, double upper, double lower) {
+        const double s = std::sqrt(upper), c = std::sqrt(whole - upper);
+        const double t = std::sqrt(lower), d = std::sqrt(whole - lower);
+        const double sum = s * d + t * c;
+        return sum > 0.0 ? atan2Of((upper - lower) * (whole / sum), d * c + t * s) : 0.0;
+    }
+
+    // Over [from, from + length].
     template <class F>
-    static double integral(double from, double to, F&& f) {
-        const int pieces = std::max(1, static_cast<int>(floorOf((to - from) / kPiece + 0.99)));
-        const double half = 0.5 * (to - from) / pieces;
+    static double integral(double from, double length, F&& f) {
+        const int pieces = std::max(1, static_cast<int>(floorOf(length / kPiece + 0.99)));
+        const double half = 0.5 * length / pieces;
         double sum = 0.0;
         for (int piece = 0; piece < pieces; piece++) {
             const double middle = from + (2.0 * piece + 1.0) * half;
@@ -83,20 +96,19 @@ class Disc {
         return sum;
     }
 
-    // G(r) / r^2
-    double gOverSquare(double x, double y) const {
+    // G / r^2 of the angular map: 2 sin^2(pi r / 2) / r^2
+    static double angularTerm(double square) {
+        const double radius = std::sqrt(square);
+        const double s = radius > 0.0 ? sinOf(1.5707963267948966 * radius) / radius : 1.5707963267948966;
+        return 2.0 * (s * s);
+    }
+    // G / r^2 of a near ball: sin^2 / (1 + cos) or, in the lower half of the sphere, 1 - cos, over r^2.
+    double ballTerm(double x, double y) const {
         const double square = x * x + y * y;
-        if (isAngular_) {
-            // 2 sin^2(pi r / 2) / r^2
-            const double radius = std::sqrt(square);
-            const double s = radius > 0.0 ? sinOf(1.5707963267948966 * radius) / radius : 1.5707963267948966;
-            return 2.0 * (s * s);
-        }
-        // sin^2 / (1 + cos)
         const double slope = (2.0 - settings_.k) / settings_.root;
         if (square == 0.0) return 0.5 * slope * slope;
         const glm::dvec3 d = MappingKernel<double>{}.ballDirection(x, y, settings_);
-        return (d.x * d.x + d.y * d.y) / square / (1.0 + d.z);
+        return (d.z < 0.0 ? 1.0 - d.z : (d.x * d.x + d.y * d.y) / (1.0 + d.z)) / square;
     }
 
     int size_;

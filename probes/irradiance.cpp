@@ -62,24 +62,4 @@ Probe blurredDiffuseMap(const Probe& cube, int radius, double sigma_px, Fragment
     return map;
 }
 
-double irradianceErrorBound(FragmentArithmetic arithmetic) {
-    switch (arithmetic) {
-        case FragmentArithmetic::truth:
-        case FragmentArithmetic::fp64:
-            return 1e-14;
-        case FragmentArithmetic::fp32:
-        case FragmentArithmetic::fp32Flush:
-        case FragmentArithmetic::fp32Nv40:
-            return 5e-7;
-        case FragmentArithmetic::fp16:
-        case FragmentArithmetic::fp16Nv40:
-            return 8e-3;
-        case FragmentArithmetic::bf16:
-            return 4e-2;
-        case FragmentArithmetic::fp24R300:
-            return 6e-4;
-    }
-    return 0;
-}
-
 }  // namespace etalon

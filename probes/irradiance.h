@@ -33,14 +33,12 @@ std::vector<glm::dvec3> irradianceAt(const Probe& probe, std::span<const glm::dv
                                      FragmentArithmetic arithmetic, int threads = 0);
 inline constexpr int kIrradianceRun = 32;
 
-// Largest relative error of the irradiance (arithmetic of the sum, of directions and of solid angles, not the
-// midpoint rule) against the same sum in double, for non-negative radiance inside the normal range of the
-// format that does not come from a few texels at right angles, and up to 2^20 texels; three times what was
-// measured:
-//   truth, f64 1e-14   fp32 (all) 5e-7   fp24 6e-4   fp16 (both) 8e-3   bf16 4e-2
+// Its largest relative error (arithmetic of the sum, of directions and of solid angles, not the midpoint
+// rule) against the same sum in double, for non-negative radiance inside the normal range of the format that
+// does not come from a few texels at right angles, and up to 2^20 texels, is probeErrors().irradiance
+// (probes/probe_errors.h).
 // The midpoint rule's own error in a white furnace, against pi: 4e-4 for lat-long 64 x 32, 5e-4 for cubes of
 // 16, 1.5e-6 for lat-long 1024 x 512.
-double irradianceErrorBound(FragmentArithmetic arithmetic);
 
 // A probe of the given shape, not turned, at the position of `like`, whose texels show these values in the
 // order of layers, rows and columns; and its texels' directions.

@@ -1,48 +1,21 @@
 // Irradiance from the lights of a probe, for every direction of a surface. The text is
-// probes/kernels/lights.glsl.
+// probes/kernels/irradiance.glsl.
 #pragma once
 
 #include <array>
 #include <span>
 #include <vector>
 
-#include "numeric/kernel_types.h"
-#include "numeric/number_lanes.h"
 #include "numeric/parallel.h"
+#include "probes/irradiance.h"
 #include "probes/probe_light.h"
 #include "probes/texel_grid.h"
-#include "raster/profile.h"
 
 namespace etalon {
 
-template <class T>
-struct LightKernel {
-#include "numeric/kernel_scope.inc"
-#include "numeric/kernels/vector.glsl"
-#include "probes/kernels/lights.glsl"
-};
-
-// Relative errors of the mean irradiance, for up to 64 lights; see irradianceOfLights.
+// Of the mean irradiance for up to 64 lights, relative; see irradianceOfLights. That of the arithmetic is
+// probeErrors().meanOfLights (probes/probe_errors.h).
 inline constexpr double kMeanOfTexelsError = 0.75;
-constexpr double meanIrradianceError(FragmentArithmetic arithmetic) {
-    switch (arithmetic) {
-        case FragmentArithmetic::truth:
-        case FragmentArithmetic::fp64:
-            return 1e-15;
-        case FragmentArithmetic::fp32:
-        case FragmentArithmetic::fp32Flush:
-        case FragmentArithmetic::fp32Nv40:
-            return 1e-7;
-        case FragmentArithmetic::fp24R300:
-            return 2e-4;  // truncation: always too dark
-        case FragmentArithmetic::fp16:
-        case FragmentArithmetic::fp16Nv40:
-            return 1e-3;
-        case FragmentArithmetic::bf16:
-            return 5e-3;
-    }
-    return 0.0;
-}
 
 // For the direction n of each texel (of the world) the sum over the lights of energy max(0, n . direction),
 // three channels in W/m^2, added in the lights' order from 0; directions and energies are rounded once to T.
@@ -51,11 +24,11 @@ constexpr double meanIrradianceError(FragmentArithmetic arithmetic) {
 // Whatever the directions of the lights, the mean over all directions n is exactly a quarter of the lights'
 // total energy: pi, if the radiance is 1 everywhere. The mean over the texels of an image of W x W/2,
 // weighted with their solid angles, differs from it by the error of the midpoint rule, at most
-// kMeanOfTexelsError / W^2 of it, and by that of the arithmetic, meanIrradianceError.
+// kMeanOfTexelsError / W^2 of it, and by that of the arithmetic.
 template <class T>
 std::vector<Image<double>> irradianceOfLights(std::span<const ProbeLight> lights, const ProbeShape& shape,
                                               int threads = 0) {
-    using Kernel = LightKernel<T>;
+    using Kernel = IrradianceKernel<T>;
     using vec3 = typename Kernel::vec3;
     constexpr int kWidth = NumberTraits<T>::lanes;
     struct Light {
@@ -84,7 +57,7 @@ std::vector<Image<double>> irradianceOfLights(std::span<const ProbeLight> lights
             const vec3 normal(component(0), component(1), component(2));
             vec3 sum(T(0.0), T(0.0), T(0.0));
             for (const Light& light : rounded)
-                sum = kernel.addLight(sum, normal, light.direction, light.energy);
+                sum = kernel.addIrradiance(sum, normal, light.direction, light.energy);
             for (int c = 0; c < 3; c++)
                 for (int i = 0; i < active; i++)
                     image.at(static_cast<int>(first) + i, y, c) = numberLane(sum[c], i);

@@ -39,26 +39,6 @@ SphericalHarmonics::SphericalHarmonics(int newDegree) : degree(newDegree) {
     coefficients.assign(static_cast<size_t>(harmonicCount(newDegree)), glm::dvec3(0));
 }
 
-double harmonicErrorBound(FragmentArithmetic arithmetic) {
-    switch (arithmetic) {
-        case FragmentArithmetic::truth:
-        case FragmentArithmetic::fp64:
-            return 1e-14;
-        case FragmentArithmetic::fp32:
-        case FragmentArithmetic::fp32Flush:
-        case FragmentArithmetic::fp32Nv40:
-            return 1e-6;
-        case FragmentArithmetic::fp24R300:
-            return 4e-4;
-        case FragmentArithmetic::fp16:
-        case FragmentArithmetic::fp16Nv40:
-            return 4e-3;
-        case FragmentArithmetic::bf16:
-            return 3e-2;
-    }
-    return 0;
-}
-
 const HarmonicConstants& harmonicConstants() {
     static const HarmonicConstants constants = makeConstants();
     return constants;

@@ -58,11 +58,10 @@ struct SphericalHarmonics {
 // exact.
 inline constexpr double kHarmonicDoubleError = 0x1p-47, kHarmonicFloatError = 0x1p-19;
 
-// Errors of an arithmetic, for radiance in the normal range of its format: the largest error of a projected
-// coefficient of degree <= 4, relative to the mean radiance times 2 sqrt(pi), is four times this, that of L00
-// once; a sum of harmonics of degree <= 6 with coefficients up to 1 is off by eight times this at most.
-//   truth, f64 1e-14   fp32 (all) 1e-6   fp24 4e-4   fp16 (both) 4e-3   bf16 3e-2
-double harmonicErrorBound(FragmentArithmetic arithmetic);
+// Errors of an arithmetic, for radiance in the normal range of its format, in units of probeErrors().harmonic
+// (probes/probe_errors.h): a projected coefficient of degree <= 4 is off by at most four times that, L00 by
+// it once, relative to the mean radiance times 2 sqrt(pi); a sum of harmonics of degree <= 6 with
+// coefficients up to 1 by eight times.
 
 // The factors of the recurrences. With p_m^m = rise(m, m):
 //   p_l^m = rise(l, m) z p_{l-1}^m - fall(l, m) p_{l-2}^m,  y_l^m = p_l^m Re (x + iy)^m, y_l^-m = p_l^m Im (x

@@ -52,8 +52,9 @@ class TexelGrid {
     std::vector<double> solidAngle_sr_;
 };
 
-// Of a mirror ball at two radii or farther; nearer ones lose digits at the rim.
-inline constexpr double kDiscSolidAngleError = 1e-11;
+// Up to 1024 texels across; it grows with the size, as do the roundings of a texel's borders against its
+// area.
+inline constexpr double kDiscSolidAngleError = 1e-12;
 
 // The weights that papers print in place of solid angles, in steradians.
 // [Pedersen2008, Eq. 5.11] with its missing differences: 2 pi / width * pi / height * sin(theta), where theta

@@ -10,15 +10,16 @@ struct LatLongCoordinates {
     real v;
 };
 
-LatLongCoordinates latLongCoordinates(vec3 d) {
-    real longitude_rad = atan2Of(d.x, d.z);
-    real latitude_rad = atan2Of(d.y, sqrt(d.x * d.x + d.z * d.z));
+real longitudeOf(vec3 d) { return atan2Of(d.x, d.z); }
+real latitudeOf(vec3 d) { return atan2Of(d.y, sqrt(d.x * d.x + d.z * d.z)); }
+LatLongCoordinates coordinatesOfAngles(real longitude_rad, real latitude_rad) {
     LatLongCoordinates c;
     // 1 / (2 pi) and 1 / pi.
     c.u = clampOf(real(0.5) - longitude_rad * real(0.15915494309189535), real(0.0), real(1.0));
     c.v = clampOf(real(0.5) - latitude_rad * real(0.3183098861837907), real(0.0), real(1.0));
     return c;
 }
+LatLongCoordinates latLongCoordinates(vec3 d) { return coordinatesOfAngles(longitudeOf(d), latitudeOf(d)); }
 
 // The four texels of a bilinear sample, upper and lower row, and the weights of the right and lower ones.
 struct LatLongTaps {

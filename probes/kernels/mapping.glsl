@@ -149,19 +149,23 @@ vec3 directionOfLengthOne(vec3 d) {
     return vec3(d.x * scale, d.y * scale, d.z * scale);
 }
 
+// The point of a lat-long image.
+MappingPoint pointOfLatLong(LatLongCoordinates c) {
+    MappingPoint p;
+    p.layer = integer(0);
+    p.u = c.u;
+    p.v = c.v;
+    p.isShown = boolean(true);
+    return p;
+}
+
 // Where direction d, of any length, is shown.
 MappingPoint mappingPoint(vec3 d, MappingSettings m) {
+    if (m.mapping == 0) return pointOfLatLong(latLongCoordinates(d));
+    if (m.mapping == 5) return pointOfLatLong(latLongCoordinates(listingAxes(d)));
     MappingPoint p;
     p.layer = integer(0);
     p.isShown = boolean(true);
-    if (m.mapping == 0 || m.mapping == 5) {
-        vec3 e = d;
-        if (m.mapping == 5) e = listingAxes(d);
-        LatLongCoordinates c = latLongCoordinates(e);
-        p.u = c.u;
-        p.v = c.v;
-        return p;
-    }
     if (m.mapping == 1) {
         CubeCoordinates c = cubeCoordinates(d);
         p.layer = c.face;

@@ -154,8 +154,7 @@ struct ProbeSampling {
     int isMasked;
     real whole;
 };
-ProbeSample sampleProbe(texture radiance, texture shown, vec3 direction, ProbeSampling s) {
-    MappingPoint p = mappingPoint(direction, s.source);
+ProbeSample sampleProbe(texture radiance, texture shown, MappingPoint p, ProbeSampling s) {
     if (s.isMasked != 0) {
         real x = real(2.0) * p.u - real(1.0);
         real y = real(2.0) * p.v - real(1.0);
@@ -198,10 +197,9 @@ ProbeSample blackIfHidden(ProbeSample a, real isOnImage) {
     boolean isShown = a.isShown && isOnImage > real(0.5);
     return probeSample(select3(isShown, a.rgb, vec3(real(0.0), real(0.0), real(0.0))), isShown);
 }
-// The distance of the nearest texel in a direction; 0 where it or the radiance is not shown.
-real nearestDistance(texture distances, texture shown, vec3 direction, ProbeSampling s, Sampling nearest,
+// The distance of the nearest texel; 0 where it or the radiance is not shown.
+real nearestDistance(texture distances, texture shown, MappingPoint p, ProbeSampling s, Sampling nearest,
                      boolean isShown) {
-    MappingPoint p = mappingPoint(direction, s.source);
     CubeTexel t = nearestProbeTexel(p, nearest);
     boolean counts = isShown && p.isShown;
     if (s.isMasked != 0) counts = counts && isShownTexel(shown, t);

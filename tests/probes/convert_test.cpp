@@ -11,7 +11,7 @@
 #include "probes/convert_over.h"
 #include "probes/mapping_passes.h"
 #include "probes/texel_grid.h"
-#include "tests/support/random_numbers.h"
+#include "tests/probes/made_probes.h"
 
 namespace etalon {
 namespace {
@@ -72,7 +72,7 @@ glm::dvec3 analyticRadiance(const glm::dvec3& d) {
             3 + y - 0.7 * x * y + z * z * z + y * z * z * z};
 }
 
-glm::dmat3 rotationAbout(int axis, double angle_rad) {
+glm::dmat3 rotationAboutAxis(int axis, double angle_rad) {
     glm::dmat3 m(1);
     const int a = (axis + 1) % 3, b = (axis + 2) % 3;
     m[a][a] = m[b][b] = std::cos(angle_rad);
@@ -119,22 +119,57 @@ TEST_CASE("ConversionToACubeIsThePassOfMirrors") {
     for (float& v : image.values()) v = static_cast<float>(random.uniform(0, 10));
     const Probe source = probeOf(image, Mapping::latLong);
     for (const FragmentArithmetic arithmetic : {FragmentArithmetic::fp32, FragmentArithmetic::fp16}) {
-        const Probe cube = convertProbe(source, {{Mapping::cube, 9, 9}}, arithmetic, 2);
-        CHECK(sameBits(cube, probeOf(mappingPasses(arithmetic).cubeFromLatLong(image, 9, {}, 1))));
+        for (const int size : {9, 16}) {
+            const Probe cube = convertProbe(source, {{Mapping::cube, size, size}}, arithmetic, 2);
+            CHECK(sameBits(cube, probeOf(mappingPasses(arithmetic).cubeFromLatLong(image, size, {}, 1))));
+        }
     }
+}
+
+// A turn by nothing goes texel by texel through the directions.
+TEST_CASE("MirroredTexelsHaveTheBitsOfTheirOwnDirections") {
+    RandomNumbers random(3);
+    Image<float> image(37, 18, 3);
+    for (float& v : image.values()) v = static_cast<float>(random.uniform(0, 10));
+    const Probe source = probeOf(image, Mapping::latLong);
+    for (const Mapping to : kMappings)
+        for (const int size : {1, 2, 6, 16, 64, 100})
+            for (const double distance_radii : {std::numeric_limits<double>::infinity(), 3.0})
+                for (const FragmentArithmetic arithmetic :
+                     {FragmentArithmetic::fp32, FragmentArithmetic::fp64, FragmentArithmetic::fp16}) {
+                    if (arithmetic == FragmentArithmetic::fp16 && size > 16) continue;
+                    for (const Resampling resampling : {Resampling::bilinear, Resampling::nearest}) {
+                        ConversionJob job;
+                        job.source = source.shape, job.target = shapeOf(to, size);
+                        job.target.ballDistance_radii = distance_radii;
+                        job.radiance = source.radiance;
+                        job.hasBlindSpots = isDisc(to);
+                        job.resampling = resampling;
+                        Probe mirrored = constantProbe(job.target, -1), turned = mirrored;
+                        for (Probe* p : {&mirrored, &turned})
+                            if (isDisc(to)) p->valid = {Image<uint8_t>(size, size)};
+                        mappingPasses(arithmetic).convertImages(job, mirrored);
+                        job.isTurned = true;
+                        mappingPasses(arithmetic).convertImages(job, turned);
+                        CAPTURE(static_cast<int>(to));
+                        CAPTURE(size);
+                        CAPTURE(static_cast<int>(resampling));
+                        CHECK(sameBits(mirrored, turned));
+                    }
+                }
 }
 
 TEST_CASE("ConversionsDependOnNoThreadsAndLanes") {
     const Probe cube = probeOfFunction(shapeOf(Mapping::cube, 7), analyticRadiance);
     for (const Mapping to : kMappings)
         for (const Resampling resampling : {Resampling::bilinear, Resampling::area}) {
-            ProbeConversion conversion{shapeOf(to, 21), rotationAbout(0, 0.3), resampling, 3};
+            ProbeConversion conversion{shapeOf(to, 21), rotationAboutAxis(0, 0.3), resampling, 3};
             conversion.shape.ballDistance_radii = 4;
             const Probe one = convertProbe(cube, conversion, FragmentArithmetic::fp32, 1);
             CHECK(sameBits(one, convertProbe(cube, conversion, FragmentArithmetic::fp32, 3)));
             ConversionJob job;
             job.source = cube.shape, job.target = conversion.shape, job.radiance = cube.radiance;
-            job.turn = rotationAbout(0, 0.3), job.isTurned = true, job.hasBlindSpots = isDisc(to);
+            job.turn = rotationAboutAxis(0, 0.3), job.isTurned = true, job.hasBlindSpots = isDisc(to);
             job.resampling = resampling, job.samplesPerAxis = 3, job.threads = 1;
             Probe images = one;
             for (Image<float>& layer : images.radiance) layer.fill(-1);
@@ -203,13 +238,14 @@ TEST_CASE("PlacesSurviveConversionWithinTheirGeometricError") {
                     layer.at(x, y, 0) = static_cast<float>(x + 0.5);
                     layer.at(x, y, 1) = static_cast<float>(y + 0.5);
                 }
-        const Probe result = convertProbe(source, {shapeOf(Mapping::cube, 45), rotationAbout(1, 0.7)});
+        const Probe result = convertProbe(source, {shapeOf(Mapping::cube, 45), rotationAboutAxis(1, 0.7)});
         const TexelGrid grid(result.shape);
         MappingKernel<double> kernel;
         const auto settings = mappingSettingsOf<MappingKernel<double>>(shape);
         double worst = 0;
         forEachTexel(result, [&](int layer, int x, int y, bool, const glm::dvec3& value) {
-            const auto p = kernel.mappingPoint(rotationAbout(1, 0.7) * grid.direction(layer, x, y), settings);
+            const auto p =
+                kernel.mappingPoint(rotationAboutAxis(1, 0.7) * grid.direction(layer, x, y), settings);
             const double px = p.u * shape.width, py = p.v * shape.height;
             // Texels on both sides of an image's border hold other numbers; a disc has none beyond it.
             if (std::min({px, py, shape.width - px, shape.height - py}) < 1) return;

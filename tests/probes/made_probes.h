@@ -91,7 +91,32 @@ inline std::vector<WeightedDirection> exactQuadrature(int points, int columns) {
     return list;
 }
 
+// Every mapping; of the ball both views.
 inline constexpr ProbeShape kSmallShapes[] = {
-    {Mapping::latLong, 37, 19}, {Mapping::latLong, 16, 8}, {Mapping::cube, 9, 9}};
+    {Mapping::latLong, 37, 19},         {Mapping::latLong, 16, 8},
+    {Mapping::latLongPedersen, 22, 11}, {Mapping::cube, 9, 9},
+    {Mapping::angular, 17, 17},         {Mapping::mirrorBall, 16, 16},
+    {Mapping::mirrorBall, 15, 15, 3},   {Mapping::octahedral, 13, 13}};
+
+// Shapes for unit radiance, with the largest relative error of the irradiance over normals that the midpoint
+// rule makes.
+struct Furnace {
+    ProbeShape shape;
+    double quadrature;
+
+    // Of the half angle of the cone that a near ball hides.
+    double sineOfHidden() const {
+        return shape.mapping == Mapping::mirrorBall ? 1 / shape.ballDistance_radii : 0;
+    }
+    double shown_sr() const {
+        return 2 * M_PI * (1 + std::sqrt((1 - sineOfHidden()) * (1 + sineOfHidden())));
+    }
+};
+inline constexpr Furnace kFurnaces[] = {
+    {{Mapping::latLong, 64, 32}, 1.5e-3},         {{Mapping::latLong, 37, 19}, 4e-3},
+    {{Mapping::latLongPedersen, 64, 32}, 1.5e-3}, {{Mapping::cube, 16, 16}, 1.5e-3},
+    {{Mapping::angular, 48, 48}, 1.5e-3},         {{Mapping::mirrorBall, 48, 48}, 3e-3},
+    {{Mapping::mirrorBall, 48, 48, 20}, 3e-3},    {{Mapping::mirrorBall, 48, 48, 2}, 3e-3},
+    {{Mapping::octahedral, 32, 32}, 4e-3}};
 
 }  // namespace etalon

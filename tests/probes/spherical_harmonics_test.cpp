@@ -4,8 +4,9 @@
 
 #include <cmath>
 
-#include "numeric/truth_elementary.h"
 #include "probes/harmonics_passes.h"
+#include "probes/probe_errors.h"
+#include "tests/probes/defined_harmonics.h"
 #include "tests/probes/made_probes.h"
 
 namespace etalon {
@@ -13,45 +14,6 @@ namespace etalon {
 namespace {
 
 constexpr double kPi = 0x1.921fb54442d18p+1;
-
-Truth truthPi() {
-    Truth pi;
-    mpfr_const_pi(pi.get(), MPFR_RNDN);
-    return pi;
-}
-Truth factorial(int n) {
-    Truth f(1.0);
-    for (int i = 2; i <= n; i++) f = f * Truth(static_cast<double>(i));
-    return f;
-}
-Truth powerOf(const Truth& a, int n) {
-    Truth p(1.0);
-    for (int i = 0; i < n; i++) p = p * a;
-    return p;
-}
-
-// y_l^m from the definition: Rodrigues' formula as a sum of monomials, factorials, (x + iy)^|m|.
-Truth definedHarmonic(int l, int m, const glm::dvec3& d) {
-    const int k = std::abs(m);
-    Truth legendre(0.0);
-    for (int j = 0; 2 * j <= l - k; j++) {
-        // (-1)^j (2l - 2j)! / (2^l j! (l - j)! (l - 2j)!) times the k-th derivative of z^(l - 2j)
-        const Truth coefficient = factorial(2 * l - 2 * j) / (powerOf(Truth(2.0), l) * factorial(j) *
-                                                              factorial(l - j) * factorial(l - 2 * j - k));
-        const Truth term = coefficient * powerOf(Truth(d.z), l - 2 * j - k);
-        legendre = j % 2 == 0 ? legendre + term : legendre - term;
-    }
-    Truth real(1.0), imaginary(0.0);
-    for (int i = 0; i < k; i++) {
-        const Truth next = real * Truth(d.x) - imaginary * Truth(d.y);
-        imaginary = real * Truth(d.y) + imaginary * Truth(d.x);
-        real = next;
-    }
-    const Truth norm = squareRoot(Truth(2.0 * l + 1) * factorial(l - k) /
-                                  (Truth(4.0) * truthPi() * factorial(l + k)) * Truth(m == 0 ? 1.0 : 2.0));
-    const Truth value = norm * legendre * (m < 0 ? imaginary : real);
-    return k % 2 == 0 ? value : -value;
-}
 
 // The sum over texels as it is defined, in long double and with the harmonics of the definition up to
 // rounding.
@@ -120,6 +82,7 @@ TEST_CASE("RecurrencesAgreeWithTheDefinitionInTruth") {
     HarmonicsKernel<double> inDouble;
     HarmonicsKernel<float> inFloat;
     HarmonicsKernel<Truth> inTruth;
+    const std::vector<DefinedHarmonic<Truth>> defined = definedHarmonics<Truth>(kMaxHarmonicDegree);
     for (const glm::dvec3& given : directions) {
         // Exact in float.
         const glm::vec3 narrow(given);
@@ -129,8 +92,8 @@ TEST_CASE("RecurrencesAgreeWithTheDefinitionInTruth") {
         inTruth.findHarmonics({Truth(d.x), Truth(d.y), Truth(d.z)}, kMaxHarmonicDegree);
         for (int l = 0; l <= kMaxHarmonicDegree; l++)
             for (int m = -l; m <= l; m++) {
-                const Truth truth = definedHarmonic(l, m, d);
                 const int i = harmonicIndex(l, m);
+                const Truth truth = defined[static_cast<size_t>(i)].at(Truth(d.x), Truth(d.y), Truth(d.z));
                 const auto errorOf = [&](double value) {
                     return std::abs((Truth(value) - truth).toDouble());
                 };
@@ -239,23 +202,29 @@ TEST_CASE("EvaluationInEveryArithmeticIsNearTheFunction") {
             for (int c = 0; c < 3; c++)
                 worst = std::max(worst, std::abs(values[i][c] - evaluate(f, directions[i])[c]));
         CAPTURE(static_cast<int>(a));
-        CHECK(worst <= 8 * harmonicErrorBound(a));
+        CHECK(worst <= 8 * probeErrors(a).harmonic);
     }
 }
 
 TEST_CASE("WhiteFurnaceHasTheMeanOfTwoRootPi") {
-    for (const FragmentArithmetic a : kAllArithmetics)
-        for (const ProbeShape& shape : {ProbeShape{Mapping::latLong, 64, 32}, {Mapping::cube, 16, 16}}) {
-            const SphericalHarmonics f = projectHarmonics(constantProbe(shape, 1), 4, a);
-            const SphericalHarmonics exact =
-                projectHarmonics(constantProbe(shape, 1), 4, FragmentArithmetic::fp64);
-            const double mean = f.coefficients[0].x;
+    for (const Furnace& furnace : kFurnaces) {
+        CAPTURE(static_cast<int>(furnace.shape.mapping));
+        CAPTURE(furnace.shape.ballDistance_radii);
+        const Probe white = constantProbe(furnace.shape, 1);
+        const SphericalHarmonics exact = projectHarmonics(white, 4, FragmentArithmetic::truth);
+        const double expected = 2 * std::sqrt(kPi) * (furnace.shown_sr() / (4 * kPi));
+        CHECK(std::abs(exact.coefficients[0].x / expected - 1) <= 1e-14);
+        CHECK(std::abs(projectHarmonics(white, 4).coefficients[0].x / expected - 1) <= 1e-14);
+        for (const FragmentArithmetic a : kAllArithmetics) {
+            const SphericalHarmonics f = projectHarmonics(white, 4, a);
             CAPTURE(static_cast<int>(a));
-            CHECK(std::abs(mean / (2 * std::sqrt(kPi)) - 1) <= harmonicErrorBound(a));
+            CAPTURE(f.coefficients[0].x / expected - 1);
+            CHECK(std::abs(f.coefficients[0].x / expected - 1) <= probeErrors(a).harmonic);
             for (size_t i = 1; i < f.coefficients.size(); i++)
                 CHECK(std::abs(f.coefficients[i].x - exact.coefficients[i].x) <=
-                      4 * harmonicErrorBound(a) * 2 * std::sqrt(kPi));
+                      4 * probeErrors(a).harmonic * 2 * std::sqrt(kPi));
         }
+    }
 }
 
 TEST_CASE("ExtremeProbesHaveFiniteHarmonicsThatKeepTheirEnergy") {
@@ -272,7 +241,7 @@ TEST_CASE("ExtremeProbesHaveFiniteHarmonicsThatKeepTheirEnergy") {
             const double energy = projectHarmonics(limited, 2).coefficients[0].x;
             const SphericalHarmonics f = projectHarmonics(probe, 2, a);
             for (const glm::dvec3& c : f.coefficients) REQUIRE(std::isfinite(c.x));
-            CHECK(std::abs(f.coefficients[0].x - energy) <= harmonicErrorBound(a) * energy);
+            CHECK(std::abs(f.coefficients[0].x - energy) <= probeErrors(a).harmonic * energy);
         };
         for (const ProbeShape& shape : {ProbeShape{Mapping::latLong, 16, 8}, {Mapping::cube, 5, 5}}) {
             Probe sun = constantProbe(shape, 1e-3);

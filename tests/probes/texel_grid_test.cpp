@@ -2,10 +2,13 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "numeric/check.h"
 #include "numeric/sum.h"
+#include "tests/support/random_numbers.h"
 
 namespace etalon {
 namespace {
@@ -25,6 +28,71 @@ double sumOf(const TexelGrid& grid) {
 }
 
 double length(const glm::dvec3& d) { return std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z); }
+
+using Real = long double;
+constexpr Real kPiOfReal = 3.14159265358979323846264338327950288L;
+
+// 1 - cos of the polar angle that a disc shows at a radius: of a near ball, the ray from the eye cut with the
+// ball and reflected.
+Real heightAt(const ProbeShape& shape, Real radius) {
+    if (shape.mapping == Mapping::angular) return 1 - std::cos(kPiOfReal * radius);
+    const Real distance = shape.ballDistance_radii;
+    if (std::isinf(distance)) return 2 * radius * radius;
+    // The ray's slope is radius / sqrt(distance^2 - 1); `across` is its distance from the middle, squared.
+    const Real square = radius * radius, all = distance * distance - 1 + square;
+    const Real sine = radius / std::sqrt(all), cosine = std::sqrt((distance * distance - 1) / all);
+    const Real oneLessAcross = (distance * distance - 1) * (1 - square) / all;
+    const Real reach = distance * cosine - std::sqrt(std::max(Real(0), oneLessAcross));
+    const Real normalX = reach * sine, normalZ = distance - reach * cosine;
+    return 1 + cosine + 2 * (sine * normalX - cosine * normalZ) * normalZ;
+}
+
+// The integral over [from, to] by the rule of Takahasi and Mori, which ends where the function has a root.
+template <class F>
+Real integralOf(Real from, Real to, F&& f) {
+    constexpr Real kStep = 1.0L / 24;
+    Real sum = 0;
+    for (int k = -84; k <= 84; k++) {
+        const Real t = k * kStep, s = kPiOfReal / 2 * std::sinh(t);
+        const Real weight = kPiOfReal / 2 * std::cosh(t) / (std::cosh(s) * std::cosh(s));
+        sum += weight * f((from + to) / 2 + (to - from) / 2 * std::tanh(s));
+    }
+    return sum * kStep * (to - from) / 2;
+}
+
+// Of the part of [x0, x1] x [y0, y1], none below 0, on the disc.
+Real definedSolidAngle(const ProbeShape& shape, Real x0, Real x1, Real y0, Real y1) {
+    std::vector<Real> ends = {std::atan2(y0, x0), std::atan2(y0, x1), std::atan2(y1, x0), std::atan2(y1, x1)};
+    for (const Real x : {x0, x1}) ends.push_back(std::acos(std::min(x, Real(1))));
+    for (const Real y : {y0, y1}) ends.push_back(std::asin(std::min(y, Real(1))));
+    const Real first = std::atan2(y0, x1), last = std::atan2(y1, x0);
+    for (Real& end : ends) end = std::clamp(end, first, last);
+    std::sort(ends.begin(), ends.end());
+    Real sum = 0;
+    for (size_t i = 1; i < ends.size(); i++)
+        if (ends[i - 1] < ends[i])
+            sum += integralOf(ends[i - 1], ends[i], [&](Real phi) {
+                const Real c = std::abs(std::cos(phi)), s = std::abs(std::sin(phi));
+                const Real inner = std::min(Real(1), std::max(x0 / c, y0 / s));
+                const Real outer = std::min({Real(1), x1 / c, y1 / s});
+                return heightAt(shape, outer) - heightAt(shape, inner);
+            });
+    return sum;
+}
+Real definedDiscSolidAngle(const ProbeShape& shape, int x, int y) {
+    // The parts on both sides of an axis.
+    const auto parts = [&](int i) {
+        const Real from = (Real(2) * i - shape.width) / shape.width,
+                   to = (Real(2) * i + 2 - shape.width) / shape.width;
+        return std::array<std::array<Real, 2>, 2>{{{std::max(Real(0), from), std::max(Real(0), to)},
+                                                   {std::max(Real(0), -to), std::max(Real(0), -from)}}};
+    };
+    Real sum = 0;
+    for (const auto& [x0, x1] : parts(x))
+        for (const auto& [y0, y1] : parts(y))
+            if (x0 < x1 && y0 < y1) sum += definedSolidAngle(shape, x0, x1, y0, y1);
+    return sum;
+}
 
 }  // namespace
 
@@ -108,6 +176,41 @@ TEST_CASE("DiscSolidAnglesAreIntegralsOfTheMapping") {
     const TexelGrid ball({Mapping::mirrorBall, 16, 16});
     CHECK(std::abs(ball.solidAngle_sr(0, 8, 8) - 4.0 * 4 / (16 * 16)) <= 1e-16);
     CHECK(std::abs(ball.solidAngle_sr(0, 3, 6) - 4.0 * 4 / (16 * 16)) <= 1e-15);
+}
+
+// Against the integral over the azimuth of 1 - cos(polar angle), with the polar angle from the geometry.
+TEST_CASE("DiscSolidAnglesKeepTheirBound") {
+    for (const ProbeShape& shape : {ProbeShape{Mapping::angular, 1, 1},
+                                    {Mapping::mirrorBall, 1, 1},
+                                    {Mapping::mirrorBall, 1, 1, 100},
+                                    {Mapping::mirrorBall, 1, 1, 10},
+                                    {Mapping::mirrorBall, 1, 1, 2},
+                                    {Mapping::mirrorBall, 1, 1, 1.01}}) {
+        CAPTURE(static_cast<int>(shape.mapping));
+        CAPTURE(shape.ballDistance_radii);
+        for (const int size : {1, 2, 3, 8, 33, 256, 1023}) {
+            ProbeShape sized = shape;
+            sized.width = sized.height = size;
+            const TexelGrid grid(sized);
+            RandomNumbers random(1);
+            double worst = 0;
+            const auto check = [&](int x, int y) {
+                const double difference =
+                    static_cast<double>(grid.solidAngle_sr(0, x, y) - definedDiscSolidAngle(sized, x, y));
+                worst = std::max(worst, std::abs(difference) / (kSphere_sr / (M_PI / 4 * size * size)));
+            };
+            for (int k = 0; k < 60; k++) check(random.below(size), random.below(size));
+            // Along the rim, where it is flat, steep and in between.
+            for (const int y : {0, size / 7, size / 3, size / 2}) {
+                int x = 0;
+                while (!showsDirection(sized, x, y)) x++;
+                for (int next = x; next < std::min(size, x + 4); next++) check(next, y), check(y, next);
+            }
+            CAPTURE(size);
+            CAPTURE(worst);
+            CHECK(worst <= kDiscSolidAngleError);
+        }
+    }
 }
 
 // The density against the area of the image of a small square.
