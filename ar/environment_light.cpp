@@ -1,6 +1,7 @@
 #include "ar/environment_light.h"
 
 #include <cmath>
+#include <span>
 
 #include "probes/convert.h"
 #include "probes/dominant_lights.h"
@@ -34,11 +35,13 @@ Probe probeOf(const SurfaceEnvironment& environment) {
     return probe;
 }
 
-void addLight(const ProbeLight& light, SurfaceScene& surfaces) {
-    SurfaceLight surface;
-    surface.toLight = light.direction;
-    surface.irradiance = light.energy;
-    surfaces.lights.push_back(surface);
+void addLights(std::span<const ProbeLight> lights, SurfaceScene& surfaces) {
+    for (const ProbeLight& light : lights) {
+        SurfaceLight surface;
+        surface.toLight = light.direction;
+        surface.irradiance = light.energy;
+        surfaces.lights.push_back(surface);
+    }
 }
 
 CubeMap<float> facesOf(Probe probe, double factor) {
@@ -71,36 +74,37 @@ void setTexels(const Probe& probe, EnvironmentLight& light) {
 
 }  // namespace
 
-void addEnvironmentLight(const Environment& environment, const Profile& profile, int threads,
-                         SurfaceScene& surfaces) {
+std::vector<ProbeLight> addEnvironmentLight(const Environment& environment, const Profile& profile,
+                                            int threads, SurfaceScene& surfaces) {
     const Probe probe = probeOf(surfaces.environment);
     EnvironmentLight& light = surfaces.environment.light;
     const ProbeShape cube{Mapping::cube, environment.mapSize, environment.mapSize};
+    std::vector<ProbeLight> lights;
     switch (environment.lighting) {
         case EnvironmentLightMethod::none:
-            return;
+            break;
         case EnvironmentLightMethod::lights: {
             MedianCut cut;
             for (cut.log2Count = 0; (1 << cut.log2Count) < environment.lightCount;) cut.log2Count++;
-            for (const ProbeLight& found : medianCutLights(probe, cut, threads).lights)
-                if (found.energy != glm::dvec3(0)) addLight(found, surfaces);
-            return;
+            lights = medianCutLights(probe, cut, threads).lights;
+            std::erase_if(lights, [](const ProbeLight& found) { return found.energy == glm::dvec3(0); });
+            break;
         }
         case EnvironmentLightMethod::dominant:
-            for (const DominantLight& found : dominantLights(probe)) addLight(found.light, surfaces);
-            return;
+            for (const DominantLight& found : dominantLights(probe)) lights.push_back(found.light);
+            break;
         case EnvironmentLightMethod::harmonics:
             light.kind = EnvironmentLight::Kind::harmonics;
             light.harmonics = irradianceOfHarmonics(projectHarmonics(probe, 2, threads));
-            return;
+            break;
         case EnvironmentLightMethod::exact:
             light.kind = EnvironmentLight::Kind::texels;
             setTexels(probe, light);
-            return;
+            break;
         case EnvironmentLightMethod::map:
             light.kind = EnvironmentLight::Kind::map;
             light.map = facesOf(irradianceProbe(probe, cube, FragmentArithmetic::fp64, threads), 1);
-            return;
+            break;
         case EnvironmentLightMethod::blurred: {
             // The reflective map in world axes, blurred with a kernel as wide as a face [Karlsson2005,
             // Sec. 3.1.5].
@@ -111,9 +115,11 @@ void addEnvironmentLight(const Environment& environment, const Profile& profile,
             light.kind = EnvironmentLight::Kind::map;
             light.map = facesOf(
                 blurredDiffuseMap(reflective, cube.width, cube.width / 2.0, profile.fragment, threads), kPi);
-            return;
+            break;
         }
     }
+    addLights(lights, surfaces);
+    return lights;
 }
 
 }  // namespace etalon

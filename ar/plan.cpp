@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "probes/dominant_lights.h"
+
 namespace etalon {
 namespace {
 
@@ -27,8 +29,9 @@ class Planner {
         for (int c = 0; c < kRadianceComponents; c++) planComponent(static_cast<ShadeOutput>(c));
         planVertexLighting();
         planCubes();
-        planShadows();
         planEnvironment();
+        planOcclusion();
+        planShadows();
         planSurfaceImages();
         planBeauty();
         plan_.memory_bytes = memory();
@@ -159,43 +162,89 @@ class Planner {
         }
     }
 
+    // Of what the ambient light and the environment's diffuse light reach, where the scene asks for it.
+    void planOcclusion() {
+        if (scene_.render.occlusionDirections == 0) return;
+        const bool environment =
+            plan_.environmentLight && !environmentHasLights() && (runs("diffuse") || anyCube());
+        plan_.occlusion = runs("ambient") || environment || (anyCube() && isFinitePositive(scene_.ambient));
+        add("ambient occlusion", plan_.occlusion,
+            plan_.occlusion ? fmt::format("surfaces see their surroundings from {} directions",
+                                          scene_.render.occlusionDirections)
+                            : "nothing that runs is lit from everywhere",
+            {"geometry", "visibility"});
+        if (!plan_.occlusion) return;
+        if (runs("ambient")) addNeed("ambient", "ambient occlusion");
+        if (environment && runs("diffuse")) addNeed("diffuse", "ambient occlusion");
+        if (plan_.lightVertices) addNeed("vertex lighting", "ambient occlusion");
+        for (size_t i = 0; i < objects_.size(); i++)
+            if (plan_.objectCube[i]) addNeed("cube map of " + objects_[i].name, "ambient occlusion");
+    }
+
     // What each light asks for, if something lies in its way.
     void planShadows() {
-        plan_.shadowMap.assign(scene_.lights.size(), false);
-        plan_.shadowVolumes.assign(scene_.lights.size(), false);
-        for (size_t l = 0; l < scene_.lights.size(); l++) {
-            const bool isMap = scene_.lights[l].shadowMap.has_value();
-            if (!isMap && !scene_.lights[l].shadowVolumes) continue;
-            const std::string name = fmt::format("shadow {} of light{}", isMap ? "map" : "volumes", l),
-                              nothing = whyNoShadow(l);
-            (isMap ? plan_.shadowMap : plan_.shadowVolumes)[l] = nothing.empty();
-            add(name, nothing.empty(), nothing.empty() ? castersText(l) : nothing, {"geometry"});
-            if (!nothing.empty()) continue;
-            for (const char* component : {"diffuse", "specular"})
-                if (runs(component)) addNeed(component, name);
-            for (size_t i = 0; i < objects_.size(); i++)
-                if (plan_.objectCube[i]) addNeed("cube map of " + objects_[i].name, name);
+        const size_t count = scene_.lights.size();
+        for (size_t l = 0; l < count; l++) {
+            const SceneLight& light = scene_.lights[l];
+            if (light.shadow.method == ShadowMethod::none) continue;
+            const bool isBlack =
+                !isFinitePositive(light.kind == LightKind::directional ? light.irradiance : light.intensity);
+            planShadow({fmt::format("light{}", l), &light.shadow, l}, isBlack, "");
         }
+        const Environment& environment = scene_.environment;
+        if (environment.shadow.method == ShadowMethod::none) return;
+        if (!facts_ || !facts_->environmentCasters) {
+            add("shadows of environment lights", plan_.environmentLight,
+                plan_.environmentLight ? "its lights are known once it is read" : "it lights nothing",
+                {"environment light"});
+            return;
+        }
+        if (facts_->environmentCasters->empty())
+            add("shadows of environment lights", false,
+                environment.shadowShare > 0 ? "no light has so large a share of its energy"
+                                            : "it has no lights");
+        for (const EnvironmentCaster& caster : *facts_->environmentCasters)
+            planShadow({fmt::format("environment light {}", caster.light), &environment.shadow,
+                        count + caster.light},
+                       false,
+                       fmt::format("region of {:.3g} sr, {:.3g} % of the energy; ", caster.solidAngle_sr,
+                                   100 * caster.share));
     }
-    std::string whyNoShadow(size_t light) const {
-        const SceneLight& l = scene_.lights[light];
+    void planShadow(PlanShadow shadow, bool isBlack, const std::string& why) {
+        constexpr std::string_view kNames[] = {"", "shadow map", "shadow volumes", "planar shadows"};
+        const std::string name =
+            fmt::format("{} of {}", kNames[static_cast<size_t>(shadow.shadow->method)], shadow.light);
+        const std::string nothing = isBlack ? "the light is black" : whyNoShadow(*shadow.shadow);
+        shadow.runs = nothing.empty();
+        add(name, shadow.runs, why + (shadow.runs ? shadowText(*shadow.shadow) : nothing), {"geometry"});
+        if (shadow.index >= scene_.lights.size()) addNeed(name, "environment light");
+        plan_.shadows.push_back(std::move(shadow));
+        if (!nothing.empty()) return;
+        for (const char* component : {"diffuse", "specular"})
+            if (runs(component)) addNeed(component, name);
+        for (size_t i = 0; i < objects_.size(); i++)
+            if (plan_.objectCube[i]) addNeed("cube map of " + objects_[i].name, name);
+    }
+    // The objects of the shadow that is planned next; null: not known yet.
+    const std::vector<uint32_t>* shadowObjects() const {
+        return facts_ && facts_->shadowObjects ? &(*facts_->shadowObjects)[plan_.shadows.size()] : nullptr;
+    }
+    std::string whyNoShadow(const LightShadow& shadow) const {
         if (!runs("diffuse") && !runs("specular") && !anyCube()) return "neither diffuse nor specular runs";
         if (scene_.render.perVertex && !anyCube()) return "the scene is lit per vertex";
-        if (!isFinitePositive(l.kind == LightKind::directional ? l.irradiance : l.intensity))
-            return "the light is black";
-        if (facts_ && facts_->castersOfLight[light].empty())
-            return "nothing stands between the light and what is visible";
-        return {};
+        if (!shadowObjects() || !shadowObjects()->empty()) return {};
+        return shadow.method == ShadowMethod::planar ? "no shadow falls on a plane that is visible"
+                                                     : "nothing stands between the light and what is visible";
     }
-    // The objects that cast, by name; the first few of many.
-    std::string castersText(size_t light) const {
+    // The objects that cast, or are planes that shadows fall on, by name; the first few of many.
+    std::string shadowText(const LightShadow& shadow) const {
         constexpr size_t kNamed = 4;
-        if (!facts_) return "objects may stand in the light's way";
-        const std::vector<uint32_t>& casters = facts_->castersOfLight[light];
-        std::string text = "cast by ";
-        for (size_t i = 0; i < std::min(casters.size(), kNamed); i++)
-            text += (i > 0 ? ", " : "") + objects_[casters[i]].name;
-        return casters.size() > kNamed ? fmt::format("{} and {} more", text, casters.size() - kNamed) : text;
+        const std::vector<uint32_t>* found = shadowObjects();
+        if (!found) return "objects may stand in the light's way";
+        std::string text = shadow.method == ShadowMethod::planar ? "fall on " : "cast by ";
+        for (size_t i = 0; i < std::min(found->size(), kNamed); i++)
+            text += (i > 0 ? ", " : "") + objects_[(*found)[i]].name;
+        return found->size() > kNamed ? fmt::format("{} and {} more", text, found->size() - kNamed) : text;
     }
 
     bool anyCube() const {
@@ -272,9 +321,21 @@ class Planner {
             {"beauty"});
     }
 
+    static constexpr uint64_t kBytesPerSample = 4 + 4 + 1;  // depth, id, stencil
+    // Of the images that a light's shadows are looked up in, and of what they are drawn into.
+    static uint64_t shadowMemory(const LightShadow& shadow, bool isDirectional) {
+        const auto squared = [](int size) {
+            return static_cast<uint64_t>(size) * static_cast<uint64_t>(size);
+        };
+        if (shadow.method == ShadowMethod::map)
+            return (isDirectional ? 1 : kFacesPerCube) * squared(shadow.map.size) *
+                   (kBytesPerSample + 2 * sizeof(double));
+        if (shadow.method == ShadowMethod::planar)
+            return squared(shadow.planar.resolution) * (kBytesPerSample + sizeof(uint32_t) + sizeof(float));
+        return 0;
+    }
     // Bytes of the largest buffers that live at one time.
     uint64_t memory() const {
-        constexpr uint64_t kBytesPerSample = 4 + 4 + 1;  // depth, id, stencil
         constexpr uint64_t kBytesPerFloat = 4;
         const uint64_t pixels =
             static_cast<uint64_t>(scene_.camera.width) * static_cast<uint64_t>(scene_.camera.height);
@@ -291,15 +352,32 @@ class Planner {
             const auto size = static_cast<uint64_t>(scene_.meshes[objects_[i].index].cubeSize);
             bytes += kFacesPerCube * size * size * 4 * kBytesPerFloat;
         }
-        for (size_t l = 0; l < plan_.shadowMap.size(); l++) {
-            if (!plan_.shadowMap[l]) continue;
-            const auto size = static_cast<uint64_t>(scene_.lights[l].shadowMap->size);
-            bytes += (scene_.lights[l].kind == LightKind::directional ? 1 : kFacesPerCube) * size * size *
-                     (kBytesPerSample + 2 * sizeof(double));
+        // One depth map at a time, and a point and its sums for each fragment.
+        if (plan_.occlusion) {
+            constexpr uint64_t kBytesPerPoint = 256;
+            const auto size = static_cast<uint64_t>(scene_.render.occlusionMapSize);
+            bytes += size * size * kBytesPerSample +
+                     pixels * static_cast<uint64_t>(scene_.render.samples) * kBytesPerPoint;
+        }
+        uint64_t volumes = 0;
+        for (const PlanShadow& shadow : plan_.shadows) {
+            if (!shadow.runs) continue;
+            const bool isFar = shadow.index >= scene_.lights.size() ||
+                               scene_.lights[shadow.index].kind == LightKind::directional;
+            bytes += shadowMemory(*shadow.shadow, isFar);
+            if (shadow.shadow->method == ShadowMethod::volume) volumes++;
+        }
+        if (plan_.environmentLight && !(facts_ && facts_->environmentCasters)) {
+            const Environment& environment = scene_.environment;
+            const int asked = environment.shadowShare > 0 ? kMaxShadowLights : environment.shadowLights;
+            const int lights = environment.lighting == EnvironmentLightMethod::lights
+                                   ? environment.lightCount
+                                   : DominantLightSearch{}.maxLights;
+            const auto most = static_cast<uint64_t>(std::min(asked, lights));
+            bytes += most * shadowMemory(environment.shadow, true);
+            if (environment.shadow.method == ShadowMethod::volume) volumes += most;
         }
         // The depths of one view at a time, and a mask for each light.
-        const auto volumes =
-            static_cast<uint64_t>(std::count(plan_.shadowVolumes.begin(), plan_.shadowVolumes.end(), true));
         if (volumes > 0)
             bytes += pixels * static_cast<uint64_t>(scene_.render.samples) *
                      (kBytesPerSample + sizeof(uint32_t) + volumes);

@@ -1,6 +1,7 @@
 // The plan: which passes a scene and the requested outputs need, and why each other one does not run.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,26 +29,45 @@ struct PlanObject {
 };
 std::vector<PlanObject> planObjects(const Scene& scene);
 
-// What the visibility pass found; without it the plan assumes that everything may be visible.
+// A light whose shadows the scene asks for.
+struct PlanShadow {
+    std::string light;                    // "light0", "environment light 3"
+    const LightShadow* shadow = nullptr;  // the scene's
+    size_t index = 0;                     // of the light among SurfaceScene::lights
+    bool runs = false;
+};
+
+// A light of the environment that casts shadows.
+struct EnvironmentCaster {
+    size_t light = 0;          // among those that addEnvironmentLight adds
+    double solidAngle_sr = 0;  // that it stands for
+    double share = 0;          // of the energy of all of them
+};
+
+// What earlier passes found; without it the plan assumes that everything may be visible.
 struct VisibilityFacts {
     std::vector<bool> objectVisible;  // for each of planObjects
     bool backgroundVisible = true;
-    // For each light with shadows the objects that stand between it and what is looked up (fitShadowMap).
-    std::vector<std::vector<uint32_t>> castersOfLight;
+    // Once the environment's lights are known.
+    std::optional<std::vector<EnvironmentCaster>> environmentCasters;
+    // For each of the shadows of the plan with the facts above: the objects that stand between the light and
+    // what is lit (map, volume), or the planes that shadows fall on (planar).
+    std::optional<std::vector<std::vector<uint32_t>>> shadowObjects;
 };
 
 struct Plan {
     std::vector<PlanPass> passes;
 
     // The same decisions for the renderer.
-    ShadeRequest request;             // what shading makes
-    bool readEnvironment = false;     // the lat-long image
-    bool environmentCube = false;     // its cube map for mirrors
-    bool environmentLight = false;    // what it lights surfaces with
-    std::vector<bool> objectCube;     // for each of planObjects: render its cube map
-    bool lightVertices = false;       // lights are evaluated at vertices
-    std::vector<bool> shadowMap;      // for each light: render and look up its map
-    std::vector<bool> shadowVolumes;  // for each light: count its volumes, in each view
+    ShadeRequest request;           // what shading makes
+    bool readEnvironment = false;   // the lat-long image
+    bool environmentCube = false;   // its cube map for mirrors
+    bool environmentLight = false;  // what it lights surfaces with
+    std::vector<bool> objectCube;   // for each of planObjects: render its cube map
+    bool lightVertices = false;     // lights are evaluated at vertices
+    bool occlusion = false;         // what surfaces see of their surroundings
+    // Of the scene's lights in their order, then of the environment's, as far as these are known.
+    std::vector<PlanShadow> shadows;
     bool depth = false, ids = false, coverage = false, toneMap = false;
     uint64_t memory_bytes = 0;  // of render target and images, at most
 

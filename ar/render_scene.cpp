@@ -4,12 +4,13 @@
 #include <unistd.h>
 
 #include "ar/environment_light.h"
+#include "ar/scene_shadows.h"
 #include "ar/surface_builder.h"
 #include "lighting/render_view.h"
 #include "raster/depth.h"
 #include "raster/rules.h"
-#include "shadows/shadow_maps.h"
-#include "shadows/view_shadows.h"
+#include "shadows/casting_lights.h"
+#include "shadows/surface_occlusion.h"
 
 namespace etalon {
 namespace {
@@ -27,7 +28,8 @@ class SceneRenderer {
         : scene_(scene),
           options_(options),
           profile_(*findProfile(options.profile.empty() ? scene.render.profile : options.profile)),
-          view_(cameraViewOf(scene.camera)) {}
+          view_(cameraViewOf(scene.camera)),
+          shadows_(surfaces_, placed_, profile_, options.raster, scene.render.seed, options.progress) {}
 
     void findVisibleObjects() {
         result_.plan = makePlan(scene_, options_.request);
@@ -39,15 +41,25 @@ class SceneRenderer {
         visible_.emplace(
             findVisible(surfaces_, placed_, view_, profile_, scene_.render.samples, options_.raster));
         result_.raster = visible_->statistics;
+        // What later plans decide with: what is seen, then the environment's lights, then what their shadows,
+        // and those of other lights, may fall on.
         VisibilityFacts facts = visibilityFacts();
-        fitShadows(facts);
-        result_.plan = makePlan(scene_, options_.request, &facts);
+        const auto plan = [&] { result_.plan = makePlan(scene_, options_.request, &facts); };
+        plan();
+        if (result_.plan.environmentLight && scene_.environment.shadow.method != ShadowMethod::none) {
+            makeEnvironmentLight();
+            facts.environmentCasters = environmentCasters();
+            plan();
+        }
+        facts.shadowObjects =
+            shadows_.find(result_.plan.shadows, shadowReceivers(scene_, result_.plan, facts.objectVisible));
+        plan();
     }
 
     RenderResult render() {
         findVisibleObjects();
         makeEnvironment();
-        makeShadows();
+        shadows_.make(result_.plan.shadows);
         makeCubes();
         shadeView();
         makeFrame();
@@ -64,16 +76,24 @@ class SceneRenderer {
         if (options_.progress) options_.progress(pass);
     }
 
+    // Whether memory goes to more than the view.
+    bool hasMaps() const {
+        const Plan& plan = result_.plan;
+        return plan.occlusion || !plan.shadows.empty() ||
+               (plan.environmentLight && scene_.environment.shadow.method != ShadowMethod::none) ||
+               std::ranges::find(plan.objectCube, true) != plan.objectCube.end();
+    }
     void requireMemory() const {
         const uint64_t needed = result_.plan.memory_bytes, present = machineMemory_bytes();
         if (needed <= present) {
             if (options_.announceMemory) options_.announceMemory(needed);
             return;
         }
-        throw InputError(fmt::format(
-            "{}: {}x{} pixels with {} samples need {:.1f} GiB, this machine has {:.1f} GiB",
-            where(scene_, scene_.camera.line), scene_.camera.width, scene_.camera.height,
-            scene_.render.samples, static_cast<double>(needed) / kGiB, static_cast<double>(present) / kGiB));
+        throw InputError(
+            fmt::format("{}: {}x{} pixels with {} samples{} need {:.1f} GiB, this machine has {:.1f} GiB",
+                        where(scene_, scene_.camera.line), scene_.camera.width, scene_.camera.height,
+                        scene_.render.samples, hasMaps() ? ", and the maps that they look up," : "",
+                        static_cast<double>(needed) / kGiB, static_cast<double>(present) / kGiB));
     }
 
     VisibilityFacts visibilityFacts() const {
@@ -89,60 +109,39 @@ class SceneRenderer {
         return facts;
     }
 
-    // What each map has to hold, and what casts volumes.
-    void fitShadows(VisibilityFacts& facts) {
-        facts.castersOfLight.resize(scene_.lights.size());
-        shadowFits_.resize(scene_.lights.size());
-        const std::vector<bool> receivers = shadowReceivers(scene_, result_.plan, facts.objectVisible);
-        for (size_t l = 0; l < scene_.lights.size(); l++) {
-            if (!result_.plan.shadowMap[l] && !result_.plan.shadowVolumes[l]) continue;
-            shadowFits_[l] = fitShadowMap(placed_, surfaces_.lights[l], receivers,
-                                          scene_.lights[l].shadowMap.value_or(defaultShadowMap()));
-            facts.castersOfLight[l] = shadowFits_[l].casters;
+    // Which of the environment's lights cast shadows.
+    std::vector<EnvironmentCaster> environmentCasters() const {
+        const Environment& environment = scene_.environment;
+        std::vector<size_t> found =
+            environment.shadowShare > 0
+                ? lightsOfLargestShare(environmentLights_, environment.shadowShare)
+                : lightsOfSmallestRegion(environmentLights_, static_cast<size_t>(environment.shadowLights));
+        found.resize(std::min(found.size(), size_t{kMaxShadowLights}));
+        const double total = energyOf(totalEnergy(environmentLights_));
+        std::vector<EnvironmentCaster> casters;
+        for (const size_t i : found) {
+            const ProbeLight& light = environmentLights_[i];
+            casters.push_back({i, light.solidAngle_sr, energyOf(light.energy) / total});
         }
+        return casters;
     }
 
-    void makeShadows() {
-        for (size_t l = 0; l < scene_.lights.size(); l++) {
-            if (!result_.plan.shadowMap[l]) continue;
-            progress("shadow map");
-            ShadowMapSettings settings = *scene_.lights[l].shadowMap;
-            settings.seed = scene_.render.seed;
-            if (!shadows_) shadows_.emplace(surfaces_.lights.size());
-            shadows_->set(
-                l, renderShadowMap(surfaces_, placed_, shadowFits_[l], settings, profile_, options_.raster),
-                profile_, options_.raster.threads);
-        }
+    void readEnvironment() {
+        if (!result_.plan.readEnvironment || !surfaces_.environment.latLong.empty()) return;
+        progress("environment image");
+        surfaces_.environment.latLong = loadEnvironment(scene_, options_.strict, result_.warnings);
     }
-
-    // The shadows of a view whose lights cast volumes; null where none does.
-    std::unique_ptr<LightVisibility> volumesOf(const View& view, int samples, uint32_t excluded) const {
-        VolumeShadowOptions options;
-        options.samples = samples;
-        options.excluded = excluded;
-        options.casters.emplace(surfaces_.lights.size());
-        bool any = false;
-        for (size_t l = 0; l < scene_.lights.size(); l++) {
-            if (!result_.plan.shadowVolumes[l]) continue;
-            (*options.casters)[l] = shadowFits_[l].casters;
-            any = true;
-        }
-        if (!any) return nullptr;
-        progress("shadow volumes");
-        return std::make_unique<ViewShadows>(
-            VolumeShadows(surfaces_, placed_, view, profile_, options, options_.raster),
-            shadows_ ? &*shadows_ : nullptr);
-    }
-
-    void makeEnvironment() {
-        if (result_.plan.readEnvironment) {
-            progress("environment image");
-            surfaces_.environment.latLong = loadEnvironment(scene_, options_.strict, result_.warnings);
-        }
-        if (result_.plan.environmentLight) {
-            progress("environment light");
+    void makeEnvironmentLight() {
+        if (!result_.plan.environmentLight || hasEnvironmentLight_) return;
+        readEnvironment();
+        progress("environment light");
+        environmentLights_ =
             addEnvironmentLight(scene_.environment, profile_, options_.raster.threads, surfaces_);
-        }
+        hasEnvironmentLight_ = true;
+    }
+    void makeEnvironment() {
+        readEnvironment();
+        makeEnvironmentLight();
         if (!result_.plan.environmentCube) return;
         progress("environment cube map");
         environmentCube_.emplace(environmentCube(surfaces_.environment, profile_, options_.raster.threads));
@@ -160,28 +159,42 @@ class SceneRenderer {
             request.near_m = scene_.camera.near;
             request.far_m = scene_.camera.far;
             request.excluded = i;
-            request.visibility = shadows_ ? &*shadows_ : nullptr;
-            request.visibilityOf = [&](const View& face) { return volumesOf(face, 1, i); };
+            request.visibility = shadows_.common();
+            request.visibilityOf = [&](const View& face) { return shadows_.ofView(face, 1, i); };
+            if (result_.plan.occlusion)
+                request.occlusionOf = [&](const ShadeJob& face) {
+                    return fragmentOcclusion(face, occlusionOptions());
+                };
             cubes_[i].emplace(renderCubeMap(surfaces_, placed_, request,
                                             environmentCube_ ? &*environmentCube_ : nullptr, profile_,
                                             options_.raster));
         }
     }
 
+    DirectionalOptions occlusionOptions() const {
+        return {scene_.render.occlusionDirections, scene_.render.occlusionMapSize, options_.raster};
+    }
     void shadeView() {
-        progress("shading");
         ShadeJob job = shadeJobOf(*visible_, surfaces_, placed_, view_, profile_, options_.raster);
         job.environmentCube = environmentCube_ ? &*environmentCube_ : nullptr;
         for (size_t i = 0; i < cubes_.size(); i++)
             if (cubes_[i]) job.sceneCubes[i] = &cubes_[i]->radiance;
-        const std::unique_ptr<LightVisibility> volumes = volumesOf(view_, scene_.render.samples, kNoInstance);
-        job.visibility = volumes ? volumes.get() : shadows_ ? &*shadows_ : nullptr;
+        const std::unique_ptr<LightVisibility> ofView =
+            shadows_.ofView(view_, scene_.render.samples, kNoInstance);
+        job.visibility = ofView ? ofView.get() : shadows_.common();
         job.request = result_.plan.request;
+        if (result_.plan.occlusion) progress("ambient occlusion");
         std::vector<VertexRadiance> radiance;
+        TileOcclusion occlusion;
         if (result_.plan.lightVertices) {
-            radiance = lightVerticesOf(job);
+            radiance = lightVerticesOf(job, result_.plan.occlusion ? vertexOcclusion(job, occlusionOptions())
+                                                                   : std::vector<VertexOcclusion>{});
             job.vertexRadiance = &radiance;
+        } else if (result_.plan.occlusion) {
+            occlusion = fragmentOcclusion(job, occlusionOptions());
+            job.occlusion = &occlusion;
         }
+        progress("shading");
         shaded_ = shade(job, &result_.shading);
     }
 
@@ -267,8 +280,9 @@ class SceneRenderer {
     std::vector<PlacedMesh> placed_;
     std::optional<VisibleScene> visible_;
     std::optional<CubeMap<float>> environmentCube_;
-    std::vector<ShadowFit> shadowFits_;
-    std::optional<ShadowMaps> shadows_;
+    std::vector<ProbeLight> environmentLights_;
+    bool hasEnvironmentLight_ = false;
+    SceneShadows shadows_;
     std::vector<std::optional<CubeRender>> cubes_;
     ShadedImages shaded_;
 };

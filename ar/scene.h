@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "lighting/surface_scene.h"
+#include "shadows/planar_lights.h"
 #include "shadows/shadow_map.h"
 
 namespace etalon {
@@ -45,6 +46,8 @@ inline ShadowMapSettings defaultShadowMap() {
 }
 inline constexpr int kDiscTaps = 32;
 inline constexpr double kSoftRadius_texels = 32;
+// Most samples of a light with planar shadows in a scene file.
+inline constexpr int kMaxSceneLightSamples = 4096;
 
 // Names that a scene file may use (docs/scene_format.md says what each means).
 inline constexpr std::array<std::string_view, 11> kOutputNames{"beauty", "depth",      "distance", "normals",
@@ -66,6 +69,14 @@ struct Camera {
     glm::dmat4 cameraToWorld{1.0};  // rotation and translation; the camera looks along its -Z
 };
 
+// How a light's shadows are made, if at all. The seeds are the scene's.
+enum class ShadowMethod : uint8_t { none, map, volume, planar };
+struct LightShadow {
+    ShadowMethod method = ShadowMethod::none;
+    ShadowMapSettings map = defaultShadowMap();  // of map
+    PlanarLightSettings planar;                  // of planar
+};
+
 enum class EnvironmentKind : uint8_t { none, constant, file };
 
 // How the environment lights surfaces, besides being seen and mirrored (docs/scene_format.md).
@@ -74,6 +85,10 @@ inline constexpr std::string_view kEnvironmentLightMethods[] = {"none",  "lights
                                                                 "exact", "map",    "blurred"};
 // Most lights of a median cut, largest edge of a map of irradiance.
 inline constexpr int kMaxEnvironmentLights = 65536, kMaxLightMapSize = 512;
+// Most directions of ambient occlusion, and largest edge of their depth maps.
+inline constexpr int kMaxOcclusionDirections = 4096, kMaxOcclusionMapSize = 8192;
+// Most lights of an environment that cast shadows.
+inline constexpr int kMaxShadowLights = 256;
 
 // Radiance that comes from far away. none is black. file: the image's radiance times `intensity`, turned by
 // `rotation_deg` counter-clockwise about +Y (seen from above).
@@ -87,6 +102,12 @@ struct Environment {
     EnvironmentLightMethod lighting = EnvironmentLightMethod::none;
     int lightCount = 64;  // of lights: a power of two
     int mapSize = 32;     // of map and blurred: texels along a face
+    // Of lights and dominant: shadows of the `shadowLights` lights that stand for the smallest solid angles;
+    // or, where shadowShare is above 0, of those with at least this part of the environment's energy, no more
+    // than kMaxShadowLights (shadows/casting_lights.h).
+    LightShadow shadow;
+    int shadowLights = 4;
+    double shadowShare = 0;
 };
 
 // Squares of edge size_m on a plane, counted from its point along its u and v axes: where
@@ -141,9 +162,7 @@ struct SceneLight {
     glm::dvec3 position{0.0};
     glm::dvec3 intensity{0.0};
     double inner_deg = 0, outer_deg = 0;
-    // With neither, nothing stands in the light's way.
-    std::optional<ShadowMapSettings> shadowMap;
-    bool shadowVolumes = false;
+    LightShadow shadow;
 };
 
 struct Output {
@@ -158,6 +177,9 @@ struct Render {
     int samples = 1;              // per pixel: 1, 4 or 16
     std::string profile = "f32";  // of profiles()
     bool perVertex = false;       // lights are evaluated at vertices (Gouraud), else at pixels (Phong)
+    // Directions that ambient occlusion is found from, and texels along an edge of the depth map of each
+    // (shadows/ambient_occlusion.h). 0 directions: surfaces see all of their surroundings.
+    int occlusionDirections = 0, occlusionMapSize = 512;
     uint64_t seed = 0;
 };
 

@@ -72,7 +72,8 @@ Output readOutput(const std::string& file, const TomlValue& value) {
 }
 
 Render readRender(const std::string& file, const TomlValue& value) {
-    const TableReader reader(file, value, "[render]", {"samples", "profile", "lighting", "seed"});
+    const TableReader reader(file, value, "[render]",
+                             {"samples", "profile", "lighting", "seed", "occlusion", "occlusion_size"});
     Render render;
     render.line = reader.line();
     if (reader.has("samples")) {
@@ -84,6 +85,13 @@ Render readRender(const std::string& file, const TomlValue& value) {
     if (reader.has("profile")) render.profile = reader.choice("profile", profileNames());
     constexpr std::string_view kLighting[] = {"per_pixel", "per_vertex"};
     if (reader.has("lighting")) render.perVertex = reader.choice("lighting", kLighting) == "per_vertex";
+    if (reader.has("occlusion"))
+        render.occlusionDirections =
+            static_cast<int>(reader.integer("occlusion", 0, kMaxOcclusionDirections));
+    if (render.occlusionDirections == 0)
+        reader.forbid("occlusion_size", "needs 'occlusion' of at least 1 beside it");
+    if (reader.has("occlusion_size"))
+        render.occlusionMapSize = static_cast<int>(reader.integer("occlusion_size", 1, kMaxOcclusionMapSize));
     if (reader.has("seed")) render.seed = static_cast<uint64_t>(reader.integer("seed", 0, INT64_MAX));
     return render;
 }

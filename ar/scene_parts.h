@@ -16,6 +16,16 @@ inline constexpr NumberRange kDegreesRange{-1e6, 1e6};
 inline constexpr NumberRange kShadowBiasRange{-1e6, 1e6};
 
 Camera readCamera(const std::string& file, const TomlValue& value);
+// The keys of a light's shadows, "shadow" and those that begin with "shadow_", in a table of a light of this
+// kind.
+inline constexpr std::string_view kShadowKeys[] = {
+    "shadow",        "shadow_size",         "shadow_depth",          "shadow_faces",
+    "shadow_bias",   "shadow_slope_bias",   "shadow_receiver_plane", "shadow_normal_offset",
+    "shadow_filter", "shadow_taps",         "shadow_radius_texels",  "shadow_reference",
+    "shadow_snap",   "shadow_light_size_m", "shadow_light_deg",      "shadow_samples",
+    "shadow_blur_m"};
+LightShadow readShadow(const TableReader& reader, LightKind kind);
+
 Environment readEnvironment(const std::string& file, const TomlValue& value);
 SceneLight readLight(const std::string& file, const TomlValue& value);
 Output readOutput(const std::string& file, const TomlValue& value);

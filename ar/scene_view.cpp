@@ -102,6 +102,24 @@ void readLighting(const TableReader& reader, Environment& environment) {
         environment.mapSize = static_cast<int>(reader.integer("map_size", 1, kMaxLightMapSize));
 }
 
+// Which lights of an environment cast shadows, and how.
+void readShadowLights(const TableReader& reader, Environment& environment) {
+    environment.shadow = readShadow(reader, LightKind::directional);
+    if (environment.shadow.method == ShadowMethod::none) {
+        for (const char* key : {"shadow_lights", "shadow_share"})
+            reader.forbid(key, "needs 'shadow' beside it");
+        return;
+    }
+    if (environment.lighting != EnvironmentLightMethod::lights &&
+        environment.lighting != EnvironmentLightMethod::dominant)
+        reader.forbid("shadow", "needs lighting = \"lights\" or \"dominant\"");
+    if (reader.has("shadow_lights")) {
+        reader.forbid("shadow_share", "cannot stand beside 'shadow_lights'");
+        environment.shadowLights = static_cast<int>(reader.integer("shadow_lights", 1, kMaxShadowLights));
+    }
+    if (reader.has("shadow_share")) environment.shadowShare = reader.number("shadow_share", {0, 1, true});
+}
+
 }  // namespace
 
 Camera readCamera(const std::string& file, const TomlValue& value) {
@@ -123,12 +141,14 @@ Camera readCamera(const std::string& file, const TomlValue& value) {
 }
 
 Environment readEnvironment(const std::string& file, const TomlValue& value) {
-    const TableReader reader(
-        file, value, "[environment]",
-        {"file", "intensity", "rotation_deg", "constant", "lighting", "lights", "map_size"});
+    const TableReader reader(file, value, "[environment]",
+                             {"file", "intensity", "rotation_deg", "constant", "lighting", "lights",
+                              "map_size", "shadow_lights", "shadow_share"},
+                             kShadowKeys);
     Environment environment;
     environment.line = reader.line();
     readLighting(reader, environment);
+    readShadowLights(reader, environment);
     if (reader.has("file")) {
         reader.forbid("constant", "cannot stand beside 'file'");
         environment.kind = EnvironmentKind::file;
@@ -147,80 +167,13 @@ Environment readEnvironment(const std::string& file, const TomlValue& value) {
     return environment;
 }
 
-namespace {
-
-// How the light's shadows are made.
-std::string readShadowMethod(const TableReader& reader) {
-    constexpr std::string_view kShadows[] = {"none", "map", "volume"};
-    return reader.has("shadow") ? reader.choice("shadow", kShadows) : "none";
-}
-
-// The keys that begin with "shadow_".
-std::optional<ShadowMapSettings> readShadow(const TableReader& reader, LightKind kind) {
-    constexpr std::string_view kDepths[] = {"d16", "d24", "d32f", "linear"};
-    constexpr std::string_view kFaces[] = {"both", "front", "back"};
-    constexpr std::string_view kFilters[] = {"hard", "pcf", "disc", "soft"};
-    const auto indexOf = [&](std::string_view key, std::span<const std::string_view> names, auto fallback) {
-        if (!reader.has(key)) return fallback;
-        const std::string name = reader.choice(key, names);
-        return static_cast<decltype(fallback)>(std::find(names.begin(), names.end(), name) - names.begin());
-    };
-    const bool isMap = readShadowMethod(reader) == "map";
-    const auto forbid = [&](std::initializer_list<std::string_view> keys, std::string_view reason) {
-        for (const std::string_view key : keys) reader.forbid(key, reason);
-    };
-    if (!isMap) {
-        forbid({"shadow_size", "shadow_depth", "shadow_faces", "shadow_bias", "shadow_slope_bias",
-                "shadow_receiver_plane", "shadow_filter", "shadow_taps", "shadow_radius_texels",
-                "shadow_light_size_m", "shadow_light_deg"},
-               "needs shadow = \"map\"");
-        return std::nullopt;
-    }
-    ShadowMapSettings map = defaultShadowMap();
-    if (reader.has("shadow_size"))
-        map.size = static_cast<int>(reader.integer("shadow_size", 1, kMaxShadowMapSize));
-    map.depth = indexOf("shadow_depth", kDepths, map.depth);
-    map.faces = indexOf("shadow_faces", kFaces, map.faces);
-    if (reader.has("shadow_bias")) map.bias.constant = reader.number("shadow_bias", kShadowBiasRange);
-    if (reader.has("shadow_slope_bias"))
-        map.bias.slopeScale = reader.number("shadow_slope_bias", kShadowBiasRange);
-    if (reader.has("shadow_receiver_plane")) map.receiverPlane = reader.boolean("shadow_receiver_plane");
-    map.filter = indexOf("shadow_filter", kFilters, map.filter);
-    const bool isDisc = map.filter == ShadowFilter::disc, isSoft = map.filter == ShadowFilter::soft;
-    if (map.filter == ShadowFilter::hard) forbid({"shadow_taps"}, "is not used by shadow_filter 'hard'");
-    if (isDisc || isSoft) map.taps = kDiscTaps;
-    if (reader.has("shadow_taps"))
-        map.taps = static_cast<int>(
-            reader.integer("shadow_taps", 1, isDisc || isSoft ? kMaxDiscTaps : kMaxWindowTaps));
-    if (!isDisc && !isSoft) forbid({"shadow_radius_texels"}, "needs shadow_filter = \"disc\" or \"soft\"");
-    if (isSoft) map.radius_texels = kSoftRadius_texels;
-    if (reader.has("shadow_radius_texels"))
-        map.radius_texels = reader.number("shadow_radius_texels", {0, kMaxShadowRadius_texels});
-    const bool isFar = kind == LightKind::directional;
-    forbid({isFar ? "shadow_light_size_m" : "shadow_light_deg"},
-           isFar ? "is not used by kind 'directional'" : "is used by kind 'directional' alone");
-    if (!isSoft) forbid({"shadow_light_size_m", "shadow_light_deg"}, "needs shadow_filter = \"soft\"");
-    if (isSoft && isFar) {
-        const SinCos half = sinCosOfDegrees(reader.number("shadow_light_deg", {0, kMaxLight_deg}) / 2);
-        map.tangentOfHalfAngle = half.sin / half.cos;
-    }
-    if (isSoft && !isFar) map.lightSize_m = reader.number("shadow_light_size_m", kNonNegativeRange);
-    return map;
-}
-
-}  // namespace
-
 SceneLight readLight(const std::string& file, const TomlValue& value) {
     constexpr std::string_view kKinds[] = {"directional", "point", "spot"};
     const TableReader reader(
         file, value, "[[light]]",
-        {"kind", "direction", "irradiance", "position", "intensity", "inner_deg", "outer_deg", "shadow",
-         "shadow_size", "shadow_depth", "shadow_faces", "shadow_bias", "shadow_slope_bias",
-         "shadow_receiver_plane", "shadow_filter", "shadow_taps", "shadow_radius_texels",
-         "shadow_light_size_m", "shadow_light_deg"});
+        {"kind", "direction", "irradiance", "position", "intensity", "inner_deg", "outer_deg"}, kShadowKeys);
     SceneLight light;
     light.line = reader.line();
-    light.shadowVolumes = readShadowMethod(reader) == "volume";
     const std::string kind = reader.choice("kind", kKinds);
     const auto forbid = [&](std::initializer_list<std::string_view> keys) {
         for (const std::string_view key : keys)
@@ -230,7 +183,7 @@ SceneLight readLight(const std::string& file, const TomlValue& value) {
     if (kind == "directional") {
         forbid({"position", "intensity", "inner_deg", "outer_deg"});
         light.irradiance = reader.triple("irradiance", kNonNegativeRange);
-        light.shadowMap = readShadow(reader, light.kind);
+        light.shadow = readShadow(reader, light.kind);
         return light;
     }
     forbid({"irradiance"});
@@ -239,7 +192,7 @@ SceneLight readLight(const std::string& file, const TomlValue& value) {
     if (kind == "point") {
         light.kind = LightKind::point;
         forbid({"direction", "inner_deg", "outer_deg"});
-        light.shadowMap = readShadow(reader, light.kind);
+        light.shadow = readShadow(reader, light.kind);
         return light;
     }
     light.kind = LightKind::spot;
@@ -249,7 +202,7 @@ SceneLight readLight(const std::string& file, const TomlValue& value) {
         reader.failKey(reader.has("inner_deg") ? "inner_deg" : "outer_deg",
                        fmt::format("must be at least {} below 'outer_deg' ({}), not {}", kMinConeStep_deg,
                                    light.outer_deg, light.inner_deg));
-    light.shadowMap = readShadow(reader, light.kind);
+    light.shadow = readShadow(reader, light.kind);
     return light;
 }
 

@@ -88,10 +88,13 @@ std::string nearestHint(std::string_view given, std::span<const std::string_view
 }
 
 TableReader::TableReader(const std::string& file, const TomlValue& value, std::string title,
-                         std::initializer_list<std::string_view> known)
+                         std::initializer_list<std::string_view> own,
+                         std::span<const std::string_view> shared)
     : file_(&file), table_(&value), title_(std::move(title)) {
     if (value.kind != TomlKind::table)
         fail(value.line, fmt::format("{} must be a table, not {}", title_, kindName(value.kind)));
+    std::vector<std::string_view> known(own);
+    known.insert(known.end(), shared.begin(), shared.end());
     // The first unknown key in the file's order is the one to report.
     int firstLine = 0;
     std::string_view firstKey;
@@ -104,8 +107,7 @@ TableReader::TableReader(const std::string& file, const TomlValue& value, std::s
     }
     if (firstLine == 0) return;
     fail(firstLine, fmt::format("unknown key '{}' in {}{}; known keys: {}", printable(firstKey), title_,
-                                nearestHint(firstKey, {known.begin(), known.size()}),
-                                joined({known.begin(), known.size()})));
+                                nearestHint(firstKey, known), joined(known)));
 }
 
 void TableReader::fail(int line, const std::string& reason) const {

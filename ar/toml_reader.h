@@ -35,9 +35,10 @@ std::string printable(std::string_view text);
 class TableReader {
   public:
     // file and value are kept by reference and must outlive the reader; title is what messages call the
-    // table, such as "[camera]". Rejects a value that is not a table, and keys that are not among `known`.
+    // table, such as "[camera]". Rejects a value that is not a table, and keys that are neither in `own` nor
+    // in `shared`, those that several tables know.
     TableReader(const std::string& file, const TomlValue& value, std::string title,
-                std::initializer_list<std::string_view> known);
+                std::initializer_list<std::string_view> own, std::span<const std::string_view> shared = {});
 
     int line() const { return table_->line; }
     const std::string& file() const { return *file_; }

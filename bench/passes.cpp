@@ -1,8 +1,8 @@
 #include "bench/passes.h"
 
-#include <mutex>
 #include <random>
 
+#include "lighting/lit_points.h"
 #include "numeric/check.h"
 #include "shadows/light_samples.h"
 
@@ -70,38 +70,9 @@ ShadedImages shadeVisible(const PlacedWorkload& work, const VisibleScene& visibl
     return shade(job);
 }
 
-namespace {
-
-// Keeps the points that shading asks about.
-class PointRecorder final : public LightVisibility {
-  public:
-    bool casts(size_t light) const override { return light == 0; }
-    void find(size_t, const LitPoints& points, std::span<double> visibility) const override {
-        std::fill(visibility.begin(), visibility.end(), 1.0);
-        const std::lock_guard lock(mutex_);
-        for (size_t i = 0; i < points.size(); i++) {
-            if (points.instance[i] == kNoInstance) continue;
-            for (size_t k = 0; k < 3; k++) {
-                all.position_m[k].push_back(points.position_m[k][i]);
-                all.normal[k].push_back(points.normal[k][i]);
-                all.faceNormal[k].push_back(points.faceNormal[k][i]);
-            }
-            all.instance.push_back(points.instance[i]);
-            all.x_px.push_back(points.x_px[i]), all.y_px.push_back(points.y_px[i]);
-        }
-    }
-    mutable LitPoints all;
-
-  private:
-    mutable std::mutex mutex_;
-};
-
-}  // namespace
-
 LitPoints visiblePoints(const PlacedWorkload& work, const VisibleScene& visible) {
-    PointRecorder recorder;
-    shadeVisible(work, visible, recorder, {.threads = 1});
-    return std::move(recorder.all);
+    return litPointsOf(
+        shadeJobOf(visible, work.workload->scene, work.placed, work.workload->view, *work.profile, {}));
 }
 
 CubeRenderRequest cubeRequest() {

@@ -127,8 +127,8 @@ void addShadowCases(std::vector<BitCase>& cases) {
         add("shadow-filter/" + std::string(profile.name),
             "look-ups with every filter, in depths and distances",
             [&profile, isTruth](const RasterOptions& options) {
-                return isTruth ? masksOf(profile, 24, 20, 24, options)
-                               : masksOf(profile, 64, 48, 48, options);
+                return isTruth ? masksOf(profile, 18, 10, 16, options)
+                               : masksOf(profile, 40, 32, 40, options);
             });
     }
 }

@@ -11,6 +11,7 @@
 #include <iterator>
 
 #include "ar/image_io.h"
+#include "experiments/light_probes.h"
 #include "experiments/plot.h"
 #include "numeric/random.h"
 #include "probes/irradiance.h"
@@ -24,20 +25,6 @@ namespace {
 
 namespace fs = std::filesystem;
 constexpr double kPi = 0x1.921fb54442d18p+1;
-
-struct Named {
-    std::string name;
-    Probe probe;
-};
-
-Probe probeOf(Image<float> radiance) {
-    Probe probe;
-    probe.shape = {Mapping::latLong, radiance.width(), radiance.height()};
-    // A few samples of the CC0 probes are negative.
-    for (float& v : radiance.values()) v = std::max(v, 0.0f);
-    probe.radiance.push_back(std::move(radiance));
-    return probe;
-}
 
 // ---- What lights give, against the truth.
 
@@ -119,7 +106,7 @@ void printFurnaces() {
     constexpr double kPrinted16 = 3.046, kPrinted64 = 3.108, kRms16 = 0.241, kRms64 = 0.050;
     Image<float> radiance(256, 128, 3);
     radiance.fill(1.0f);
-    const Probe unit = probeOf(std::move(radiance));
+    const Probe unit = latLongProbe(std::move(radiance));
     struct Row {
         double byMean, byAll;
         std::string text;
@@ -164,7 +151,7 @@ void printFurnaces() {
 
 // ---- Tables 7.2 and 7.3: diffuse convolution.
 
-void printDiffuse(const std::vector<Named>& probes, const fs::path& data, const char* block) {
+void printDiffuse(const std::vector<NamedProbe>& probes, const fs::path& data, const char* block) {
     const std::pair<LongerSide, LightPlace> ways[] = {
         {LongerSide::angle, LightPlace::centre}, {LongerSide::angle, LightPlace::centroid},
         {LongerSide::angle, LightPlace::median}, {LongerSide::angle, LightPlace::centroidTwice},
@@ -175,7 +162,7 @@ void printDiffuse(const std::vector<Named>& probes, const fs::path& data, const 
         rule += " ---: |";
     }
     fmt::print("== {}\n{}\n{}\n", block, header, rule);
-    for (const Named& n : probes) {
+    for (const NamedProbe& n : probes) {
         std::vector<std::pair<std::string, std::vector<glm::dvec3>>> truths = {
             {"exact", diffuseTruth(n.probe, kShown)}};
         ProbeShape shape = kShown;
@@ -206,7 +193,7 @@ void printDiffuse(const std::vector<Named>& probes, const fs::path& data, const 
 
 void writePlot(const fs::path& path, const Plot& plot) { std::ofstream(path) << svgOf(plot); }
 
-void printConvergence(const std::vector<Named>& probes, const fs::path& plots, const char* block) {
+void printConvergence(const std::vector<NamedProbe>& probes, const fs::path& plots, const char* block) {
     Plot plot{
         "Median cut: mean relative error of irradiance (arc, centroid)", "lights", "error in %", {}, {}};
     constexpr int kLast = 10;
@@ -223,7 +210,7 @@ void printConvergence(const std::vector<Named>& probes, const fs::path& plots, c
             variants.series.push_back({fmt::format("{}, {}", nameOf(side), nameOf(place)),
                                        std::vector<double>(plot.x.size(), 0.0)});
         }
-    for (const Named& n : probes) {
+    for (const NamedProbe& n : probes) {
         const auto truth = diffuseTruth(n.probe, kShown);
         plot.series.push_back({n.name, {}});
         table += fmt::format("\n| {} |", n.name);
@@ -287,7 +274,7 @@ glm::dvec3 meanOf(const Probe& probe, const Arithmetics& arithmetics) {
     return mean;
 }
 
-void printHardware(const Named& n, const char* block) {
+void printHardware(const NamedProbe& n, const char* block) {
     using enum FragmentArithmetic;
     Arithmetics exact;
     exact.fill(fp64);
@@ -317,7 +304,7 @@ void printHardware(const Named& n, const char* block) {
 }
 
 // The means of the other ways to place and weight the lights, in f64.
-void printVariantMeans(const Named& n) {
+void printVariantMeans(const NamedProbe& n) {
     fmt::print(
         "== means-papers\n| longer side | place | weights | R | G | B |\n"
         "| --- | --- | --- | ---: | ---: | ---: |\n");
@@ -335,7 +322,7 @@ void printVariantMeans(const Named& n) {
 
 // ---- Flicker.
 
-void printFlicker(const Named& n) {
+void printFlicker(const NamedProbe& n) {
     constexpr int kFrames = 48;
     fmt::print(
         "== flicker\n| lights | blend | angle per frame | intensity per frame |\n| ---: | ---: | ---: | ---: "
@@ -372,19 +359,16 @@ int run(int argc, char** argv) {
         return 2;
     }
     const fs::path plots = argv[1], data = argc > 2 ? argv[2] : "";
-    std::vector<Named> probes;
-    for (const char* name :
-         {"city", "courtyard", "forest", "interior", "night", "studio", "sunrise", "sunset"})
-        probes.push_back({name, probeOf(readRgb(fmt::format("scenes/probes/{}.exr", name)))});
+    const std::vector<NamedProbe> probes = fetchedProbes();
     printFurnaces();
     printDiffuse(probes, {}, "diffuse-cc0");
     printConvergence(probes, plots, "lights_convergence");
     printHardware(probes[0], "hardware-cc0");
     printFlicker(probes[1]);
-    std::vector<Named> papers;
+    std::vector<NamedProbe> papers;
     for (const char* name : {"uffizi", "grace"}) {
         const fs::path path = data / fmt::format("{}_latlong_256x128.hdr", name);
-        if (!data.empty() && fs::exists(path)) papers.push_back({name, probeOf(readRgb(path))});
+        if (!data.empty() && fs::exists(path)) papers.push_back({name, latLongProbe(readRgb(path))});
     }
     if (papers.size() < 2) return 0;
     printDiffuse(papers, data, "diffuse-papers");

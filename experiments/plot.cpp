@@ -10,8 +10,23 @@ namespace {
 
 constexpr double kWidth = 760, kHeight = 460, kLeft = 70, kRight = 150, kTop = 40, kBottom = 55;
 constexpr double kLabelHeight = 14;
-constexpr const char* kColours[] = {"#1b6ca8", "#d1495b", "#2e8b57", "#edae49", "#6a4c93",
-                                    "#17becf", "#8d5b4c", "#444444", "#c2185b", "#7cb342"};
+constexpr const char* kColours[] = {"#1b6ca8", "#d1495b", "#2e8b57", "#edae49", "#6a4c93", "#17becf",
+                                    "#8d5b4c", "#444444", "#c2185b", "#7cb342", "#ff6f00"};
+
+// Where the x axis is marked: at the plot's values, or at 1, 2 and 5 times the powers of ten around those of
+// all series.
+std::vector<double> ticksOf(const Plot& plot) {
+    if (!plot.x.empty()) return plot.x;
+    double least = plot.series[0].x[0], largest = least;
+    for (const Series& s : plot.series)
+        for (const double x : s.x) least = std::min(least, x), largest = std::max(largest, x);
+    std::vector<double> ticks;
+    for (double decade = std::pow(10.0, std::floor(std::log10(least))); decade < 10 * largest; decade *= 10)
+        for (const double step : {1.0, 2.0, 5.0}) ticks.push_back(step * decade);
+    while (ticks.size() > 2 && ticks[1] <= least) ticks.erase(ticks.begin());
+    while (ticks.size() > 2 && ticks[ticks.size() - 2] >= largest) ticks.pop_back();
+    return ticks;
+}
 
 }  // namespace
 
@@ -21,12 +36,17 @@ std::string svgOf(const Plot& plot) {
         for (const double y : s.y) least = std::min(least, y), largest = std::max(largest, y);
     const double low = std::floor(std::log10(least)),
                  high = std::max(low + 1.0, std::ceil(std::log10(largest)));
-    const double first = std::log2(plot.x.front()), last = std::log2(plot.x.back());
+    const std::vector<double> ticks = ticksOf(plot);
+    const double first = std::log2(ticks.front()), last = std::log2(ticks.back());
     const auto px = [&](double x) {
         return kLeft + (kWidth - kLeft - kRight) * (std::log2(x) - first) / (last - first);
     };
     const auto py = [&](double y) {
         return kTop + (kHeight - kTop - kBottom) * (high - std::log10(y)) / (high - low);
+    };
+
+    const auto xOf = [&](const Series& s) -> const std::vector<double>& {
+        return s.x.empty() ? plot.x : s.x;
     };
 
     std::string svg = fmt::format(
@@ -46,7 +66,7 @@ std::string svgOf(const Plot& plot) {
     text((kLeft + kWidth - kRight) / 2, kHeight - 12, "middle", plot.xName);
     text(18, (kTop + kHeight - kBottom) / 2, "middle", plot.yName,
          fmt::format(" transform=\"rotate(-90 18 {:.1f})\"", (kTop + kHeight - kBottom) / 2));
-    for (const double x : plot.x) {
+    for (const double x : ticks) {
         line(px(x), kTop, px(x), kHeight - kBottom, "#e4e4e4");
         text(px(x), kHeight - kBottom + 18, "middle", fmt::format("{:g}", x));
     }
@@ -77,11 +97,14 @@ std::string svgOf(const Plot& plot) {
         const char* colour = kColours[i % std::size(kColours)];
         std::string points;
         for (size_t k = 0; k < s.y.size(); k++)
-            points += fmt::format("{}{:.1f},{:.1f}", k == 0 ? "" : " ", px(plot.x[k]), py(s.y[k]));
+            points += fmt::format("{}{:.1f},{:.1f}", k == 0 ? "" : " ", px(xOf(s)[k]), py(s.y[k]));
         svg += fmt::format("<polyline points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.8\"/>\n",
                            points, colour);
+        for (size_t k = 0; k < s.x.size(); k++)
+            svg += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\" fill=\"{}\"/>\n", px(s.x[k]),
+                               py(s.y[k]), k == 0 ? 4.5 : 2.5, colour);
         const double end = kWidth - kRight;
-        line(end, py(s.y.back()), end + 14, label[i] - beyond, colour);
+        if (s.x.empty()) line(end, py(s.y.back()), end + 14, label[i] - beyond, colour);
         text(end + 18, label[i] - beyond + 4, "start", s.name, fmt::format(" fill=\"{}\"", colour));
     }
     return svg + "</svg>\n";

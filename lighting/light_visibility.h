@@ -9,7 +9,7 @@
 
 namespace etalon {
 
-// Points of surfaces, in world space: what a tile's fragments are lit at. One element per point in each
+// Points of surfaces, in world space: what fragments are lit at. One element per point in each
 // array; the doubles hold numbers of the fragment arithmetic.
 struct LitPoints {
     std::array<std::vector<double>, 3> position_m;

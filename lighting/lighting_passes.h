@@ -29,7 +29,7 @@ struct LightingPasses {
     // lighting/vertex_lighting.h
     void (*lightVertices)(const Profile& profile, const SurfaceScene& scene, const SurfaceMaterial& material,
                           const PlacedMesh& placed, const glm::dvec3& eye, size_t begin, size_t count,
-                          VertexRadiance& radiance);
+                          const VertexOcclusion* occlusion, VertexRadiance& radiance);
 };
 
 // Those of the active level.

@@ -93,6 +93,11 @@ CubeRender renderCubeMap(const SurfaceScene& scene, const std::vector<PlacedMesh
         const std::unique_ptr<LightVisibility> ofFace =
             request.visibilityOf ? request.visibilityOf(view) : nullptr;
         job.visibility = ofFace ? ofFace.get() : request.visibility;
+        TileOcclusion occlusion;
+        if (request.occlusionOf) {
+            occlusion = request.occlusionOf(job);
+            job.occlusion = &occlusion;
+        }
         job.request[ShadeOutput::beauty] = true;
         job.request[ShadeOutput::distance] = true;
         ShadedImages images = shade(job);

@@ -53,6 +53,8 @@ struct CubeRenderRequest {
     const LightVisibility* visibility = nullptr;  // as in ShadeJob
     // Where it depends on the view: that of each face, instead.
     std::function<std::unique_ptr<LightVisibility>(const View&)> visibilityOf;
+    // Of the fragments of each face, from its job; empty: they see all of their surroundings.
+    std::function<TileOcclusion(const ShadeJob&)> occlusionOf;
 };
 
 // Renders the six faces around a point in one call. Mirrors seen in them reflect the environment alone.

@@ -13,9 +13,7 @@ namespace {
 
 int channelsOf(ShadeOutput output) { return output == ShadeOutput::distance ? 1 : 3; }
 
-}  // namespace
-
-ShadedImages shade(const ShadeJob& job, ShadeStatistics* statistics) {
+void checkJob(const ShadeJob& job) {
     ETALON_CHECK(job.scene && job.view && job.target && job.placed && job.profile,
                  "a part of the job is missing");
     ETALON_CHECK(job.instanceOfDraw.size() == job.target->drawCount &&
@@ -23,20 +21,27 @@ ShadedImages shade(const ShadeJob& job, ShadeStatistics* statistics) {
                  "{} draws of {}, {} cubes of {} instances", job.instanceOfDraw.size(), job.target->drawCount,
                  job.sceneCubes.size(), job.scene->instances.size());
     ETALON_CHECK(job.tileSize >= 1, "tileSize = {}", job.tileSize);
-    const int width = job.target->width(), height = job.target->height();
-    ShadedImages images;
-    for (size_t o = 0; o < kShadeOutputs; o++)
-        if (job.request.wanted[o])
-            images.images[o] = Image<float>(width, height, channelsOf(static_cast<ShadeOutput>(o)));
+}
 
-    // One shader per thread at work; the sums of the counts do not depend on who counted.
+struct Tiles {
+    size_t columns, rows;
+    size_t count() const { return columns * rows; }
+};
+Tiles tilesOf(const ShadeJob& job) {
+    const auto along = [&](int pixels) {
+        return static_cast<size_t>((pixels + job.tileSize - 1) / job.tileSize);
+    };
+    return {along(job.target->width()), along(job.target->height())};
+}
+
+// Calls visit(shader, number, rectangle) for every tile, with one shader per thread at work.
+template <class Visit>
+void forEachTile(const ShadeJob& job, const Visit& visit) {
     const ShadingPasses passes = shadingPasses(job.profile->fragment);
+    const Tiles tiles = tilesOf(job);
     std::mutex mutex;
     std::vector<std::unique_ptr<TileShader>> idle;
-    ShadeStatistics total;
-    const int columns = (width + job.tileSize - 1) / job.tileSize,
-              rows = (height + job.tileSize - 1) / job.tileSize;
-    parallelFor(static_cast<size_t>(columns) * static_cast<size_t>(rows), job.threads, [&](size_t t) {
+    parallelFor(tiles.count(), job.threads, [&](size_t t) {
         std::unique_ptr<TileShader> shader;
         {
             const std::lock_guard lock(mutex);
@@ -46,36 +51,76 @@ ShadedImages shade(const ShadeJob& job, ShadeStatistics* statistics) {
             }
         }
         if (!shader) shader = passes.makeTileShader(job);
-        const int x0 = static_cast<int>(t) % columns * job.tileSize,
-                  y0 = static_cast<int>(t) / columns * job.tileSize;
+        const int x0 = static_cast<int>(t % tiles.columns) * job.tileSize,
+                  y0 = static_cast<int>(t / tiles.columns) * job.tileSize;
+        visit(*shader, t,
+              PixelRectangle{x0, y0, std::min(x0 + job.tileSize, job.target->width()),
+                             std::min(y0 + job.tileSize, job.target->height())});
+        const std::lock_guard lock(mutex);
+        idle.push_back(std::move(shader));
+    });
+}
+
+}  // namespace
+
+ShadedImages shade(const ShadeJob& job, ShadeStatistics* statistics) {
+    checkJob(job);
+    ETALON_CHECK(!job.occlusion || job.occlusion->size() == tilesOf(job).count(),
+                 "occlusion of {} tiles of {}", job.occlusion->size(), tilesOf(job).count());
+    const int width = job.target->width(), height = job.target->height();
+    ShadedImages images;
+    for (size_t o = 0; o < kShadeOutputs; o++)
+        if (job.request.wanted[o])
+            images.images[o] = Image<float>(width, height, channelsOf(static_cast<ShadeOutput>(o)));
+
+    std::mutex mutex;
+    ShadeStatistics total;
+    forEachTile(job, [&](TileShader& shader, size_t number, const PixelRectangle& rectangle) {
         ShadeStatistics counts;
-        shader->run({x0, y0, std::min(x0 + job.tileSize, width), std::min(y0 + job.tileSize, height)}, images,
-                    counts);
+        shader.run(number, rectangle, images, counts);
         const std::lock_guard lock(mutex);
         total.surfaceFragments += counts.surfaceFragments;
         total.backgroundFragments += counts.backgroundFragments;
-        idle.push_back(std::move(shader));
     });
     if (statistics) *statistics = total;
     return images;
 }
 
-std::vector<VertexRadiance> lightVerticesOf(const ShadeJob& job) {
-    constexpr size_t kVerticesPerTask = 4096;
-    std::vector<VertexRadiance> radiance(job.scene->instances.size());
-    std::vector<bool> visible(radiance.size(), false);
+std::vector<LitPoints> fragmentPoints(const ShadeJob& job) {
+    checkJob(job);
+    std::vector<LitPoints> points(tilesOf(job).count());
+    forEachTile(job, [&](TileShader& shader, size_t number, const PixelRectangle& rectangle) {
+        points[number] = shader.points(rectangle);
+    });
+    return points;
+}
+
+std::vector<bool> visibleInstances(const ShadeJob& job) {
+    std::vector<bool> visible(job.scene->instances.size(), false);
     for (const uint32_t id : job.target->id.values())
         if (id != kNoTriangle) visible[job.instanceOfDraw[job.target->triangles[id].draw]] = true;
+    return visible;
+}
+
+std::vector<VertexRadiance> lightVerticesOf(const ShadeJob& job,
+                                            const std::vector<VertexOcclusion>& occlusion) {
+    constexpr size_t kVerticesPerTask = 4096;
+    std::vector<VertexRadiance> radiance(job.scene->instances.size());
+    const std::vector<bool> visible = visibleInstances(job);
     for (size_t i = 0; i < radiance.size(); i++) {
         if (!visible[i]) continue;
         const PlacedMesh& placed = (*job.placed)[i];
         const size_t count = placed.positions.size();
-        for (auto& side : radiance[i].sides) side.diffuse.resize(count), side.specular.resize(count);
+        for (auto& side : radiance[i].sides) {
+            side.diffuse.resize(count), side.specular.resize(count);
+            if (!occlusion.empty()) side.open.resize(count);
+        }
         const SurfaceMaterial& material = job.scene->materials[job.scene->instances[i].material];
         parallelFor((count + kVerticesPerTask - 1) / kVerticesPerTask, job.threads, [&](size_t task) {
             const size_t begin = task * kVerticesPerTask;
             lightingPasses().lightVertices(*job.profile, *job.scene, material, placed, job.view->eye, begin,
-                                           std::min(kVerticesPerTask, count - begin), radiance[i]);
+                                           std::min(kVerticesPerTask, count - begin),
+                                           occlusion.empty() ? nullptr : &occlusion[i], radiance[i]);
         });
     }
     return radiance;

@@ -7,6 +7,7 @@
 
 #include "lighting/geometry.h"
 #include "lighting/light_visibility.h"
+#include "lighting/occlusion.h"
 #include "lighting/surface_scene.h"
 #include "lighting/vertex_lighting.h"
 #include "lighting/view.h"
@@ -71,6 +72,9 @@ struct ShadeJob {
     // For each instance what its vertices reflect, to be interpolated (lighting/vertex_lighting.h); null:
     // every fragment is lit by itself.
     const std::vector<VertexRadiance>* vertexRadiance = nullptr;
+    // What the fragments see of their surroundings; null: everything. For each tile, row by row. Not with
+    // vertexRadiance, which has its own.
+    const TileOcclusion* occlusion = nullptr;
     ShadeRequest request;
     const Profile* profile = nullptr;
     int threads = 0, tileSize = 64;
@@ -79,8 +83,17 @@ struct ShadeJob {
 // Shades each visible fragment once, in the profile's fragment arithmetic.
 ShadedImages shade(const ShadeJob& job, ShadeStatistics* statistics = nullptr);
 
-// Lights the vertices of every instance that the job's target shows; the others stay empty.
-std::vector<VertexRadiance> lightVerticesOf(const ShadeJob& job);
+// The points that the fragments of each tile's surfaces are lit at; tiles row by row, in the order that a
+// tile is shaded in.
+std::vector<LitPoints> fragmentPoints(const ShadeJob& job);
+
+// Which instances the job's target shows.
+std::vector<bool> visibleInstances(const ShadeJob& job);
+
+// Lights the vertices of every instance that the job's target shows; the others stay empty. occlusion: of the
+// vertices of each of these; empty: all see everything.
+std::vector<VertexRadiance> lightVerticesOf(const ShadeJob& job,
+                                            const std::vector<VertexOcclusion>& occlusion = {});
 
 // The cube map of a lat-long environment for its mirrors, without its rotation: a quarter of the image's
 // width along a face, so that texels subtend about what they do in the image, one sample each.

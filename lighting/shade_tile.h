@@ -20,7 +20,9 @@ template <class T>
 class TileShaderOf final : public TileShader {
   public:
     explicit TileShaderOf(const ShadeJob& job);
-    void run(const PixelRectangle& rectangle, ShadedImages& images, ShadeStatistics& statistics) override;
+    void run(size_t number, const PixelRectangle& rectangle, ShadedImages& images,
+             ShadeStatistics& statistics) override;
+    LitPoints points(const PixelRectangle& rectangle) override;
 
   private:
     using K = ShadingKernels<T>;
@@ -36,38 +38,57 @@ class TileShaderOf final : public TileShader {
         const SurfaceMaterial* material;
         const CubeMap<float>* cube;
         std::vector<uint32_t> fragments;
+        size_t number = 0;  // Group::number of the first one
     };
     // 1 to N fragments of a bucket.
     struct Group {
         std::span<const uint32_t> fragments;
+        size_t number;  // of the first one among those of all buckets but the background, in their order
         typename Triangles::Group lanes;
         // Whether the fragments are neighbours in memory.
         bool isRun() const { return fragments.back() - fragments.front() == fragments.size() - 1; }
     };
     using Lighting = SurfaceLighting<T>;
 
-    // What reaches the fragments of a group of each light.
+    // What the fragments of a group are shaded with: weights, and what the wanted outputs read.
+    struct Surface {
+        Weights w;
+        vec3 normal, position;
+    };
+    // What reaches the fragments of a group of each light; the group begins at point `first` of points_.
     struct Shadows {
         const TileShaderOf& shader;
-        const Group& group;
+        size_t first;
         bool casts(size_t light) const { return shader.casts_[light]; }
         T visibility(size_t light) const {
-            const double* of = &shader.visibility_[light * shader.tile_.size()];
-            return generateNumber<T>([&](int i) {
-                return of[group.fragments[std::min(static_cast<size_t>(i), group.fragments.size() - 1)]];
-            });
+            return TexelFetch<T>::contiguous(&shader.visibility_[light * kChunk + first]);
         }
     };
+    // Fragments whose visibility is found at once, in whole groups.
+    static constexpr size_t kChunk = 512;
+    static_assert(kChunk % N == 0);
 
     static vec3 constant(const glm::dvec3& v) { return Lighting::constant(v); }
-    void setUpTriangles();
+    void collect(const PixelRectangle& rectangle, bool withPoints);
+    void setUpTriangles(bool withPoints);
     void setFaceNormal(size_t number, uint32_t id, const PlacedMesh& placed);
     size_t bucketOf(const SurfaceMaterial& material, const CubeMap<float>* cube);
     void sortIntoBuckets();
-    Group groupOf(std::span<const uint32_t> fragments) const;
-    void findVisibility();
+    Group groupOf(const Bucket& bucket, size_t first, int count) const;
+    struct Parts {
+        bool ambient, diffuse, specular, mirror, distance, needNormal, needEye, needPlace;
+    };
+    Parts partsOf(const SurfaceMaterial& material) const;
+    Surface surfaceOf(const Group& group, bool needNormal, bool needPosition) const;
+    void shadeShadowed(const Bucket& bucket);
+    void resizePoints(size_t count);
+    typename Lighting::Surroundings surroundingsOf(const Weights& w, const Group& group) const;
+    void setPoints(const Group& group, const Surface& surface, size_t first);
     void shadeBackground(const Group& group);
     void shadeSurface(const Bucket& bucket, const Group& group);
+    template <class Reaching>
+    void shadeSurface(const Bucket& bucket, const Group& group, const Surface& surface,
+                      const Reaching& shadows);
     vec3 albedo(const SurfaceMaterial& material, const Weights& w, const Group& group);
     vec3 sampleEnvironment(vec3 direction);
     vec3 mirrorRadiance(const Bucket& bucket, vec3 n, vec3 toEye);
@@ -84,14 +105,20 @@ class TileShaderOf final : public TileShader {
     Lighting lighting_;
     SamplerSettings sampler_;
     vec3 ambient_, eye_;
-    std::vector<bool> casts_;  // for each light whether its visibility is asked for; empty: for none
+    std::vector<bool> casts_;    // for each light whether its visibility is asked for; empty: for none
+    bool hasOcclusion_ = false;  // else all is open
+    const std::vector<Occlusion>* occlusion_ = nullptr;  // of the tile's fragments, where these have it
+    // A chunk: its groups, and the visibility of its points for each light.
+    std::vector<std::pair<Group, Surface>> chunk_;
     LitPoints points_;
-    std::vector<double> visibility_;  // for each light, of every fragment
+    std::vector<double> visibility_;
     TileFragments tile_;
     Triangles triangles_;
     std::vector<Bucket> buckets_;  // the first is the background
     std::vector<size_t> bucketOfTriangle_;
-    std::vector<glm::dvec3> faceNormals_;  // of the triangles, for lights that may be blocked
+    // Of the triangles, where points are asked for.
+    std::vector<glm::dvec3> faceNormals_;
+    std::vector<uint32_t> instances_;
     std::array<std::vector<Stored>, kShadeOutputs> values_;
 };
 
@@ -100,7 +127,11 @@ TileShaderOf<T>::TileShaderOf(const ShadeJob& job)
     : job_(job), lighting_(*job.scene, samplerOf(*job.profile)), sampler_(samplerOf(*job.profile)) {
     ambient_ = constant(job.scene->ambient);
     eye_ = constant(job.view->eye);
-    buckets_.push_back(Bucket{nullptr, nullptr, {}});
+    buckets_.push_back(Bucket{nullptr, nullptr, {}, 0});
+    hasOcclusion_ = job.occlusion || (job.vertexRadiance &&
+                                      std::ranges::any_of(*job.vertexRadiance, [](const VertexRadiance& of) {
+                                          return !of.sides[0].open.empty();
+                                      }));
     const ShadeRequest& request = job.request;
     if (!job.visibility || job.vertexRadiance ||
         !(request.needs(ShadeOutput::diffuse) || request.needs(ShadeOutput::specular)))
@@ -109,22 +140,43 @@ TileShaderOf<T>::TileShaderOf(const ShadeJob& job)
     if (std::find(casts_.begin(), casts_.end(), true) == casts_.end()) casts_.clear();
 }
 
+// Lists what is visible and sorts it by what shades it.
 template <class T>
-void TileShaderOf<T>::run(const PixelRectangle& rectangle, ShadedImages& images,
-                          ShadeStatistics& statistics) {
-    // List what is visible, sort it by what shades it, shade, write the images.
+void TileShaderOf<T>::collect(const PixelRectangle& rectangle, bool withPoints) {
     tile_.collect(*job_.target, rectangle);
-    setUpTriangles();
+    setUpTriangles(withPoints);
     sortIntoBuckets();
-    findVisibility();
+}
+
+template <class T>
+LitPoints TileShaderOf<T>::points(const PixelRectangle& rectangle) {
+    collect(rectangle, true);
+    resizePoints(tile_.size() - buckets_[0].fragments.size());
+    for (size_t b = 1; b < buckets_.size(); b++)
+        forEachLaneGroup<N>(buckets_[b].fragments.size(), [&](size_t first, int active) {
+            const Group group = groupOf(buckets_[b], first, active);
+            setPoints(group, surfaceOf(group, true, true), group.number);
+        });
+    return points_;
+}
+
+template <class T>
+void TileShaderOf<T>::run(size_t number, const PixelRectangle& rectangle, ShadedImages& images,
+                          ShadeStatistics& statistics) {
+    // List what is visible, shade, write the images.
+    collect(rectangle, !casts_.empty());
+    occlusion_ = job_.occlusion ? &(*job_.occlusion)[number] : nullptr;
     for (size_t o = 0; o < kShadeOutputs; o++)
         if (job_.request.wanted[o]) values_[o].assign(3 * tile_.size(), Stored(0));
     for (size_t b = 0; b < buckets_.size(); b++) {
         const std::vector<uint32_t>& list = buckets_[b].fragments;
-        forEachLaneGroup<N>(list.size(), [&](size_t first, int active) {
-            const Group group = groupOf(std::span(&list[first], static_cast<size_t>(active)));
-            b == 0 ? shadeBackground(group) : shadeSurface(buckets_[b], group);
-        });
+        if (b > 0 && !casts_.empty())
+            shadeShadowed(buckets_[b]);
+        else
+            forEachLaneGroup<N>(list.size(), [&](size_t first, int active) {
+                const Group group = groupOf(buckets_[b], first, active);
+                b == 0 ? shadeBackground(group) : shadeSurface(buckets_[b], group);
+            });
         (b == 0 ? statistics.backgroundFragments : statistics.surfaceFragments) += list.size();
     }
     for (size_t o = 0; o < kShadeOutputs; o++) {
@@ -140,17 +192,17 @@ template <class T>
 size_t TileShaderOf<T>::bucketOf(const SurfaceMaterial& material, const CubeMap<float>* cube) {
     size_t b = 1;
     while (b < buckets_.size() && !(buckets_[b].material == &material && buckets_[b].cube == cube)) b++;
-    if (b == buckets_.size()) buckets_.push_back(Bucket{&material, cube, {}});
+    if (b == buckets_.size()) buckets_.push_back(Bucket{&material, cube, {}, 0});
     return b;
 }
 
 // Each visible triangle's bucket, and what its fragments share.
 template <class T>
-void TileShaderOf<T>::setUpTriangles() {
+void TileShaderOf<T>::setUpTriangles(bool withPoints) {
     const size_t count = tile_.triangles.size();
     triangles_.reset(count);
     bucketOfTriangle_.assign(count, 0);
-    if (!casts_.empty()) faceNormals_.assign(count, glm::dvec3(0));
+    if (withPoints) faceNormals_.assign(count, glm::dvec3(0)), instances_.assign(count, kNoTriangle);
     for (size_t i = 0; i < count; i++) {
         const uint32_t id = tile_.triangles[i];
         if (id == kNoTriangle) continue;
@@ -160,7 +212,10 @@ void TileShaderOf<T>::setUpTriangles() {
         bucketOfTriangle_[i] =
             bucketOf(job_.scene->materials[job_.scene->instances[instance].material], cube);
         triangles_.set(i, *job_.target, id, (*job_.placed)[instance]);
-        if (!casts_.empty()) setFaceNormal(i, id, (*job_.placed)[instance]);
+        if (withPoints) {
+            setFaceNormal(i, id, (*job_.placed)[instance]);
+            instances_[i] = instance;
+        }
         if (job_.vertexRadiance)
             triangles_.setRadiance(i, *job_.target, id, (*job_.placed)[instance],
                                    (*job_.vertexRadiance)[instance]);
@@ -185,13 +240,21 @@ void TileShaderOf<T>::sortIntoBuckets() {
     for (Bucket& bucket : buckets_) bucket.fragments.clear();
     for (uint32_t f = 0; f < tile_.size(); f++)
         buckets_[bucketOfTriangle_[tile_.triangle[f]]].fragments.push_back(f);
+    size_t number = 0;
+    for (size_t b = 1; b < buckets_.size(); b++) {
+        buckets_[b].number = number;
+        number += buckets_[b].fragments.size();
+    }
 }
 
-// The lanes behind a short group repeat its last fragment.
+// Fragments of a bucket from its `first` on. The lanes behind a short group repeat its last fragment.
 template <class T>
-typename TileShaderOf<T>::Group TileShaderOf<T>::groupOf(std::span<const uint32_t> fragments) const {
+typename TileShaderOf<T>::Group TileShaderOf<T>::groupOf(const Bucket& bucket, size_t first,
+                                                         int count) const {
     Group group;
+    const std::span<const uint32_t> fragments(&bucket.fragments[first], static_cast<size_t>(count));
     group.fragments = fragments;
+    group.number = bucket.number + first;
     auto& lanes = group.lanes;
     for (size_t i = 0; i < static_cast<size_t>(N); i++) {
         const uint32_t f = fragments[std::min(i, fragments.size() - 1)];
@@ -204,47 +267,84 @@ typename TileShaderOf<T>::Group TileShaderOf<T>::groupOf(std::span<const uint32_
     return group;
 }
 
-// What reaches the tile's fragments of the lights that may be blocked. The points of the background stand
-// there, too, as zeros.
+// What the corners of the group's triangles give its fragments.
 template <class T>
-void TileShaderOf<T>::findVisibility() {
-    if (casts_.empty()) return;
-    const size_t count = tile_.size();
-    for (auto* vectors : {&points_.position_m, &points_.normal, &points_.faceNormal})
-        for (std::vector<double>& component : *vectors) component.assign(count, 0);
-    points_.instance.assign(count, kNoTriangle);
-    points_.x_px.resize(count), points_.y_px.resize(count);
-    const int n = job_.target->format.subpixelBits;
-    for (size_t b = 1; b < buckets_.size(); b++) {
-        const std::vector<uint32_t>& list = buckets_[b].fragments;
-        forEachLaneGroup<N>(list.size(), [&](size_t first, int active) {
-            const Group group = groupOf(std::span(&list[first], static_cast<size_t>(active)));
-            const Weights w = triangles_.weights(group.lanes);
-            const vec3 normal = kernels_.scale3(kernels_.unit3(triangles_.normal(w)), w.facing);
-            const vec3 position = triangles_.position(w, group.lanes);
-            for (size_t i = 0; i < group.fragments.size(); i++) {
-                const uint32_t f = group.fragments[i];
-                for (int c = 0; c < 3; c++) {
-                    points_.position_m[static_cast<size_t>(c)][f] =
-                        numberLane(position[c], static_cast<int>(i));
-                    points_.normal[static_cast<size_t>(c)][f] = numberLane(normal[c], static_cast<int>(i));
-                }
-            }
+typename TileShaderOf<T>::Surface TileShaderOf<T>::surfaceOf(const Group& group, bool needNormal,
+                                                             bool needPosition) const {
+    const vec3 none = constant(glm::dvec3(0));
+    Surface surface{triangles_.weights(group.lanes), none, none};
+    K kernels;
+    if (needNormal)
+        surface.normal = kernels.scale3(kernels.unit3(triangles_.normal(surface.w)), surface.w.facing);
+    if (needPosition) surface.position = triangles_.position(surface.w, group.lanes);
+    return surface;
+}
+
+// A bucket under lights that may be blocked: interpolates some groups, asks what reaches them of the lights,
+// shades them.
+template <class T>
+void TileShaderOf<T>::shadeShadowed(const Bucket& bucket) {
+    // Behind the last point there are numbers, too, for its group's other lanes.
+    visibility_.assign(casts_.size() * kChunk, 1);
+    for (size_t begin = 0; begin < bucket.fragments.size(); begin += kChunk) {
+        const size_t count = std::min(kChunk, bucket.fragments.size() - begin);
+        resizePoints(count);
+        chunk_.clear();
+        forEachLaneGroup<N>(count, [&](size_t first, int active) {
+            const Group group = groupOf(bucket, begin + first, active);
+            chunk_.emplace_back(group, surfaceOf(group, true, true));
+            setPoints(group, chunk_.back().second, first);
         });
+        for (size_t l = 0; l < casts_.size(); l++)
+            if (casts_[l])
+                job_.visibility->find(l, points_, std::span(visibility_).subspan(l * kChunk, count));
+        for (size_t g = 0; g < chunk_.size(); g++)
+            shadeSurface(bucket, chunk_[g].first, chunk_[g].second, Shadows{*this, g * N});
     }
-    for (size_t f = 0; f < count; f++) {
-        points_.x_px[f] = static_cast<uint32_t>(tile_.x_subpx[f] >> n);
-        points_.y_px[f] = static_cast<uint32_t>(tile_.y_subpx[f] >> n);
-        const size_t triangle = tile_.triangle[f];
-        if (bucketOfTriangle_[triangle] == 0) continue;
-        const uint32_t id = tile_.triangles[triangle];
-        points_.instance[f] = job_.instanceOfDraw[job_.target->triangles[id].draw];
-        const glm::dvec3 face = faceNormals_[triangle];
-        for (int c = 0; c < 3; c++) points_.faceNormal[static_cast<size_t>(c)][f] = face[c];
+}
+
+template <class T>
+void TileShaderOf<T>::resizePoints(size_t count) {
+    for (auto* vectors : {&points_.position_m, &points_.normal, &points_.faceNormal})
+        for (std::vector<double>& component : *vectors) component.resize(count);
+    points_.instance.resize(count);
+    points_.x_px.resize(count), points_.y_px.resize(count);
+}
+
+// What the group's fragments see of their surroundings; where they are lit by their vertices, interpolated:
+// then the bent normal is not used.
+template <class T>
+typename TileShaderOf<T>::Lighting::Surroundings TileShaderOf<T>::surroundingsOf(const Weights& w,
+                                                                                 const Group& group) const {
+    if (job_.vertexRadiance) return {triangles_.open(w, group.lanes), constant(glm::dvec3(0))};
+    const auto load = [&](const auto& valueOf) {
+        return generateNumber<T>([&](int i) {
+            const size_t last = group.fragments.size() - 1;
+            return valueOf((*occlusion_)[group.number + std::min(static_cast<size_t>(i), last)]);
+        });
+    };
+    const auto bent = [&](int c) { return load([c](const Occlusion& of) { return of.bentNormal[c]; }); };
+    return {load([](const Occlusion& of) { return of.open; }), {bent(0), bent(1), bent(2)}};
+}
+
+// The group's fragments as points, from `first` on.
+template <class T>
+void TileShaderOf<T>::setPoints(const Group& group, const Surface& surface, size_t first) {
+    const auto active = static_cast<int>(group.fragments.size());
+    for (int c = 0; c < 3; c++) {
+        const auto component = static_cast<size_t>(c);
+        TexelFetch<T>::store(surface.position[c], &points_.position_m[component][first], active);
+        TexelFetch<T>::store(surface.normal[c], &points_.normal[component][first], active);
     }
-    visibility_.assign(casts_.size() * count, 1);
-    for (size_t l = 0; l < casts_.size(); l++)
-        if (casts_[l]) job_.visibility->find(l, points_, std::span(visibility_).subspan(l * count, count));
+    const int n = job_.target->format.subpixelBits;
+    for (size_t i = 0; i < group.fragments.size(); i++) {
+        const size_t triangle = group.lanes.triangle[i], point = first + i;
+        points_.x_px[point] = static_cast<uint32_t>(group.lanes.x_subpx[i] >> n);
+        points_.y_px[point] = static_cast<uint32_t>(group.lanes.y_subpx[i] >> n);
+        points_.instance[point] = instances_[triangle];
+        const glm::dvec3& face = faceNormals_[triangle];
+        for (int c = 0; c < 3; c++) points_.faceNormal[static_cast<size_t>(c)][point] = face[c];
+    }
 }
 
 // The environment in the direction of the pixel's centre.
@@ -274,29 +374,42 @@ void TileShaderOf<T>::shadeBackground(const Group& group) {
 
 template <class T>
 void TileShaderOf<T>::shadeSurface(const Bucket& bucket, const Group& group) {
-    const SurfaceMaterial& material = *bucket.material;
+    const Parts parts = partsOf(*bucket.material);
+    if (!(parts.ambient || parts.needNormal || parts.needEye)) return;
+    shadeSurface(bucket, group, surfaceOf(group, parts.needNormal, parts.needEye || parts.needPlace),
+                 typename Lighting::Unshadowed());
+}
+
+// What of a material the wanted outputs show, and what that needs.
+template <class T>
+typename TileShaderOf<T>::Parts TileShaderOf<T>::partsOf(const SurfaceMaterial& material) const {
     const ShadeRequest& request = job_.request;
     const bool hasDiffuse = hasDiffusePart(material);
-    const bool ambient = hasDiffuse && request.needs(ShadeOutput::ambient);
-    const bool diffuse = hasDiffuse && lighting_.hasDiffuse() && request.needs(ShadeOutput::diffuse);
-    const bool specular = material.kind == MaterialKind::blinnPhong && lighting_.hasSpecular() &&
-                          request.needs(ShadeOutput::specular);
-    const bool mirror = hasMirrorPart(material) && request.needs(ShadeOutput::mirror);
-    const bool distance = request[ShadeOutput::distance], normals = request[ShadeOutput::normals];
-    const bool needNormal = diffuse || specular || mirror || normals,
-               needEye = specular || mirror || distance, needPlace = diffuse && lighting_.hasPlaces();
-    if (!(ambient || needNormal || needEye)) return;
+    Parts parts;
+    parts.ambient = hasDiffuse && request.needs(ShadeOutput::ambient);
+    parts.diffuse = hasDiffuse && lighting_.hasDiffuse() && request.needs(ShadeOutput::diffuse);
+    parts.specular = material.kind == MaterialKind::blinnPhong && lighting_.hasSpecular() &&
+                     request.needs(ShadeOutput::specular);
+    parts.mirror = hasMirrorPart(material) && request.needs(ShadeOutput::mirror);
+    parts.distance = request[ShadeOutput::distance];
+    parts.needNormal = parts.diffuse || parts.specular || parts.mirror || request[ShadeOutput::normals];
+    parts.needEye = parts.specular || parts.mirror || parts.distance;
+    parts.needPlace = parts.diffuse && lighting_.hasPlaces();
+    return parts;
+}
 
-    // Interpolate what the wanted outputs read.
-    const Weights w = triangles_.weights(group.lanes);
-    vec3 n = constant(glm::dvec3(0)), toEye = n, position = n;
-    if (needEye || needPlace) position = triangles_.position(w, group.lanes);
-    if (needNormal) {
-        n = kernels_.scale3(kernels_.unit3(triangles_.normal(w)), w.facing);
-        put(ShadeOutput::normals, group, n);
-    }
+template <class T>
+template <class Reaching>
+void TileShaderOf<T>::shadeSurface(const Bucket& bucket, const Group& group, const Surface& interpolated,
+                                   const Reaching& shadows) {
+    const SurfaceMaterial& material = *bucket.material;
+    const auto [ambient, diffuse, specular, mirror, distance, needNormal, needEye, needPlace] =
+        partsOf(material);
+    const vec3 n = interpolated.normal;
+    vec3 toEye = constant(glm::dvec3(0));
+    if (needNormal) put(ShadeOutput::normals, group, n);
     if (needEye) {
-        toEye = kernels_.sub3(eye_, position);
+        toEye = kernels_.sub3(eye_, interpolated.position);
         if (distance) put(ShadeOutput::distance, group, vec3(kernels_.length3(toEye), T(0.0), T(0.0)));
         toEye = kernels_.unit3(toEye);
     }
@@ -307,16 +420,21 @@ void TileShaderOf<T>::shadeSurface(const Bucket& bucket, const Group& group) {
         put(output, group, radiance);
         sum = kernels_.add3(sum, radiance);
     };
+    const Weights& w = interpolated.w;
     const vec3 surface = ambient || diffuse ? albedo(material, w, group) : sum;
-    if (ambient) add(ShadeOutput::ambient, kernels_.mul3(surface, ambient_));
+    const bool isOccluded = hasOcclusion_ && (ambient || diffuse);
+    const auto surroundings = isOccluded ? surroundingsOf(w, group) : typename Lighting::Surroundings{};
+    if (ambient) {
+        const vec3 arriving = isOccluded ? kernels_.scale3(ambient_, surroundings.open) : ambient_;
+        add(ShadeOutput::ambient, kernels_.mul3(surface, arriving));
+    }
     if (job_.vertexRadiance) {
         if (diffuse) add(ShadeOutput::diffuse, triangles_.diffuseRadiance(w, group.lanes));
         if (specular) add(ShadeOutput::specular, triangles_.specularRadiance(w, group.lanes));
     } else {
-        const typename Lighting::Point point{position, n, toEye};
-        const auto lights = casts_.empty() ? lighting_.reflected(material, point, surface, diffuse, specular)
-                                           : lighting_.reflected(material, point, surface, diffuse, specular,
-                                                                 Shadows{*this, group});
+        const typename Lighting::Point point{interpolated.position, n, toEye};
+        const auto lights = lighting_.reflected(material, point, surface, diffuse, specular, shadows,
+                                                isOccluded ? &surroundings : nullptr);
         if (diffuse) add(ShadeOutput::diffuse, lights.diffuse);
         if (specular) add(ShadeOutput::specular, lights.specular);
     }

@@ -11,7 +11,11 @@ namespace etalon {
 class TileShader {
   public:
     virtual ~TileShader() = default;
-    virtual void run(const PixelRectangle& rectangle, ShadedImages& images, ShadeStatistics& statistics) = 0;
+    // number: of the tile, row by row.
+    virtual void run(size_t number, const PixelRectangle& rectangle, ShadedImages& images,
+                     ShadeStatistics& statistics) = 0;
+    // What fragmentPoints() has of a tile.
+    virtual LitPoints points(const PixelRectangle& rectangle) = 0;
 };
 
 struct ShadingPasses {

@@ -22,6 +22,11 @@ class SurfaceLighting {
     struct Point {
         vec3 position, normal, toEye;
     };
+    // What a point sees of its surroundings (lighting/occlusion.h).
+    struct Surroundings {
+        T open;
+        vec3 bentNormal;
+    };
     // What the lights of a point add up to.
     struct Reflected {
         vec3 diffuse, specular;
@@ -64,10 +69,11 @@ class SurfaceLighting {
 
     // surface: diffuse reflectance. Components that are not asked for are 0. shadows.casts(l) says whether
     // light l is multiplied with shadows.visibility(l). Lights are added in their order, the environment
-    // last.
+    // last: its irradiance in the normal or, with surroundings, in the bent normal times what is open.
     template <class Shadows = Unshadowed>
     Reflected reflected(const SurfaceMaterial& material, const Point& point, vec3 surface, bool diffuse,
-                        bool specular, const Shadows& shadows = {}) {
+                        bool specular, const Shadows& shadows = {},
+                        const Surroundings* surroundings = nullptr) {
         const Request request{material, point, surface, diffuse, specular};
         Reflected sum{constant(glm::dvec3(0)), constant(glm::dvec3(0))};
         // Runs of lights that arrive as they are, and single ones that do not.
@@ -83,7 +89,7 @@ class SurfaceLighting {
             done = l + 1;
         }
         addLights(request, std::span(lights_).subspan(done), sum);
-        if (diffuse && !environment_.empty()) addEnvironment(request, sum);
+        if (diffuse && !environment_.empty()) addEnvironment(request, surroundings, sum);
         return sum;
     }
 
@@ -141,10 +147,12 @@ class SurfaceLighting {
         total = sum;
     }
 
-    [[gnu::noinline]] void addEnvironment(const Request& request, Reflected& sum) {
-        sum.diffuse = kernels_.add3(
-            sum.diffuse,
-            kernels_.lambertOfIrradiance(environment_.irradiance(request.point.normal), request.surface));
+    [[gnu::noinline]] void addEnvironment(const Request& request, const Surroundings* surroundings,
+                                          Reflected& sum) {
+        vec3 irradiance =
+            environment_.irradiance(surroundings ? surroundings->bentNormal : request.point.normal);
+        if (surroundings) irradiance = kernels_.scale3(irradiance, surroundings->open);
+        sum.diffuse = kernels_.add3(sum.diffuse, kernels_.lambertOfIrradiance(irradiance, request.surface));
     }
 
     K kernels_;

@@ -56,6 +56,9 @@ class TileTriangles {
     vec3 specularRadiance(const Weights& w, const Group& group) const {
         return radiance(w, group, kSpecularRadiance);
     }
+    T open(const Weights& w, const Group& group) const {
+        return interpolated(w, three(columns<3>(&radiance_[kOpen], kRadianceWords, group).data()));
+    }
 
   private:
     using Stored = TexelStorage<T>;
@@ -71,7 +74,7 @@ class TileTriangles {
     using LargeEdges = std::array<EdgeFunction, 3>;
 
     // Words of a record of what the corners reflect; blocks of N words are read.
-    static constexpr size_t kSpecularRadiance = 16, kRadianceWords = 32;
+    static constexpr size_t kOpen = 9, kSpecularRadiance = 16, kRadianceWords = 32;
 
     // The vertices of a triangle in the order of the source, and its corners.
     struct Corners {
@@ -81,6 +84,8 @@ class TileTriangles {
         const uint32_t* index;
     };
     static Corners cornersOf(const RenderTarget& target, uint32_t id, const PlacedMesh& placed);
+    template <class ValueOf>
+    static void gatherComponent(const Corners& corners, const ValueOf& valueOf, double* words);
     template <class Vectors>
     static void gather(const Corners& corners, const Vectors& values, int components, double* words);
     static void storeWords(const double* words, size_t count, Stored* to);
@@ -140,25 +145,31 @@ typename TileTriangles<T>::Corners TileTriangles<T>::cornersOf(const RenderTarge
     return {target, id, record, &placed.mesh->indices[3 * size_t{record.triangle}]};
 }
 
-// The first components of the vectors at the corners of a triangle: three words each, in the order of the
-// record. Magnitudes below 2^-60 are 0.
+// A number at the corners of a triangle: three words in the order of the record. valueOf: of a vertex.
+// Magnitudes below 2^-60 are 0.
+template <class T>
+template <class ValueOf>
+void TileTriangles<T>::gatherComponent(const Corners& corners, const ValueOf& valueOf, double* words) {
+    constexpr double kSmallestAttribute = 0x1p-60;
+    const uint32_t* index = corners.index;
+    const std::array<double, 3> source = {valueOf(index[0]), valueOf(index[1]), valueOf(index[2])};
+    for (size_t k = 0; k < 3; k++) {
+        double value = source[corners.record.corner[k]];
+        if (corners.record.clipped) {
+            const auto& beta = corners.target.barycentric(corners.id, k);
+            value = beta[0] * source[0] + (beta[1] * source[1] + beta[2] * source[2]);
+        }
+        words[k] = std::fabs(value) < kSmallestAttribute ? 0.0 : value;
+    }
+}
+
+// The first components of the vectors at the corners, one after the other.
 template <class T>
 template <class Vectors>
 void TileTriangles<T>::gather(const Corners& corners, const Vectors& values, int components, double* words) {
-    constexpr double kSmallestAttribute = 0x1p-60;
-    const uint32_t* index = corners.index;
-    const auto &a = values[index[0]], &b = values[index[1]], &c = values[index[2]];
-    for (int i = 0; i < components; i++) {
-        const std::array<double, 3> source = {double{a[i]}, double{b[i]}, double{c[i]}};
-        for (size_t k = 0; k < 3; k++) {
-            double value = source[corners.record.corner[k]];
-            if (corners.record.clipped) {
-                const auto& beta = corners.target.barycentric(corners.id, k);
-                value = beta[0] * source[0] + (beta[1] * source[1] + beta[2] * source[2]);
-            }
-            *words++ = std::fabs(value) < kSmallestAttribute ? 0.0 : value;
-        }
-    }
+    for (int c = 0; c < components; c++)
+        gatherComponent(
+            corners, [&](uint32_t i) { return double{values[i][c]}; }, words + 3 * c);
 }
 
 // Each rounded once. count: a multiple of N.
@@ -196,6 +207,9 @@ void TileTriangles<T>::setRadiance(size_t number, const RenderTarget& target, ui
     std::array<double, kRadianceWords> words{};
     gather(corners, side.diffuse, 3, &words[0]);
     gather(corners, side.specular, 3, &words[kSpecularRadiance]);
+    if (!side.open.empty())
+        gatherComponent(
+            corners, [&](uint32_t i) { return side.open[i]; }, &words[kOpen]);
     storeWords(words.data(), kRadianceWords, &radiance_[number * kRadianceWords]);
 }
 

@@ -9,7 +9,7 @@ namespace {
 template <class S>
 void lightIn(const Profile& profile, const SurfaceScene& scene, const SurfaceMaterial& material,
              const PlacedMesh& placed, const glm::dvec3& eye, size_t begin, size_t count,
-             VertexRadiance& radiance) {
+             const VertexOcclusion* occlusion, VertexRadiance& radiance) {
     using T = Native<S>;
     using Lighting = SurfaceLighting<T>;
     using vec3 = typename Lighting::vec3;
@@ -38,11 +38,23 @@ void lightIn(const Profile& profile, const SurfaceScene& scene, const SurfaceMat
         };
         const vec3 surface = lighting.surfaceColour(material, coordinate(0), coordinate(1));
         for (size_t side = 0; side < radiance.sides.size(); side++) {
+            auto& to = radiance.sides[side];
+            typename Lighting::Surroundings surroundings{T(1.0), n};
+            if (occlusion) {
+                const std::vector<Occlusion>& of = (*occlusion)[side];
+                const auto bent = [&](int c) {
+                    return generateNumber<T>([&](int i) { return of[vertex(i)].bentNormal[c]; });
+                };
+                surroundings.open = generateNumber<T>([&](int i) { return of[vertex(i)].open; });
+                surroundings.bentNormal = vec3(bent(0), bent(1), bent(2));
+                for (int i = 0; i < active; i++) to.open[vertex(i)] = numberLane(surroundings.open, i);
+            }
             const auto reflected =
                 lighting.reflected(material, {position, kernels.scale3(n, T(side == 0 ? 1.0 : -1.0)), toEye},
-                                   surface, true, material.kind == MaterialKind::blinnPhong);
-            store(reflected.diffuse, radiance.sides[side].diffuse);
-            store(reflected.specular, radiance.sides[side].specular);
+                                   surface, true, material.kind == MaterialKind::blinnPhong,
+                                   typename Lighting::Unshadowed{}, occlusion ? &surroundings : nullptr);
+            store(reflected.diffuse, to.diffuse);
+            store(reflected.specular, to.specular);
         }
     });
 }
@@ -51,11 +63,11 @@ void lightIn(const Profile& profile, const SurfaceScene& scene, const SurfaceMat
 
 void lightVertices(const Profile& profile, const SurfaceScene& scene, const SurfaceMaterial& material,
                    const PlacedMesh& placed, const glm::dvec3& eye, size_t begin, size_t count,
-                   VertexRadiance& radiance) {
+                   const VertexOcclusion* occlusion, VertexRadiance& radiance) {
     if (profile.vertex == RasterReal::fp32)
-        lightIn<float>(profile, scene, material, placed, eye, begin, count, radiance);
+        lightIn<float>(profile, scene, material, placed, eye, begin, count, occlusion, radiance);
     else
-        lightIn<double>(profile, scene, material, placed, eye, begin, count, radiance);
+        lightIn<double>(profile, scene, material, placed, eye, begin, count, occlusion, radiance);
 }
 
 }  // namespace etalon

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lighting/geometry.h"
+#include "lighting/occlusion.h"
 #include "lighting/surface_scene.h"
 #include "raster/profile.h"
 
@@ -17,14 +18,15 @@ namespace etalon {
 struct VertexRadiance {
     struct Side {
         std::vector<glm::dvec3> diffuse, specular;
+        std::vector<double> open;  // Occlusion::open, for the ambient light; empty: 1
     };
     std::array<Side, 2> sides;
 };
 
 // In the vertex arithmetic of the profile: lights vertices begin .. begin + count - 1 as seen from `eye`; the
-// sides have the size of the mesh.
+// sides have the size of the mesh. occlusion: of its vertices; null: all are open.
 void lightVertices(const Profile& profile, const SurfaceScene& scene, const SurfaceMaterial& material,
                    const PlacedMesh& placed, const glm::dvec3& eye, size_t begin, size_t count,
-                   VertexRadiance& radiance);
+                   const VertexOcclusion* occlusion, VertexRadiance& radiance);
 
 }  // namespace etalon

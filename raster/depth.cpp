@@ -58,6 +58,10 @@ uint32_t farthestDepth(DepthFormat format) {
     return 0;
 }
 
+uint32_t depthBehindAll(DepthFormat format) {
+    return format == DepthFormat::d32f ? 0x40000000 : 2 * farthestDepth(format);
+}
+
 double depthFromStored(DepthFormat format, uint32_t stored) {
     if (format == DepthFormat::d32f) {
         float z;

@@ -31,7 +31,8 @@ template <class S, int N>
     return Lanes<int32_t, N>(reinterpret_cast<typename Lanes<int32_t, N>::Vector>(narrow.v));
 }
 template <class S, int N>
-Lanes<int32_t, N> storedDepth(DepthFormat format, DepthRounding rounding, Lanes<S, N> z) {
+[[gnu::always_inline]] inline Lanes<int32_t, N> storedDepth(DepthFormat format, DepthRounding rounding,
+                                                            Lanes<S, N> z) {
     if (format == DepthFormat::d32f) return storedFloatDepth(z);
     z = RasterKernels<Lanes<S, N>>::clampOf(z, Lanes<S, N>(0.0), Lanes<S, N>(1.0));
     using Wide = Lanes<double, N>;

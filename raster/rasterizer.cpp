@@ -141,27 +141,27 @@ class Rasterization {
 
         parallelFor(chunks_.size(), options_.threads, [&](size_t c) {
             TriangleSetup& setup = scratch_.setups[c];
+            size_t listed = 0;
             for (size_t k = 0; k < setup.triangles.size(); k++) {
                 StoredTriangle& triangle = target_.triangles[firstTriangle[c] + k];
                 triangle = setup.triangles[k];
                 if (triangle.clipped)
                     for (uint32_t& v : triangle.vertex) v += firstClipped[c];
-                const TileBox& box = setup.boxes[k];
-                for (int y = box.y0; y <= box.y1; y++)
-                    for (int x = box.x0; x <= box.x1; x++) {
-                        const size_t tile = grid_.index(x, y);
-                        scratch_.listed[scratch_.firstListed[tile] + setup.countOfTile[tile]++] =
-                            static_cast<uint32_t>(firstTriangle[c] + k);
-                    }
+                for (; listed < setup.endOfTiles[k]; listed++) {
+                    const size_t tile = setup.tiles[listed];
+                    scratch_.listed[scratch_.firstListed[tile] + setup.countOfTile[tile]++] =
+                        static_cast<uint32_t>(firstTriangle[c] + k);
+                }
             }
         });
     }
 
     void drawTiles() {
-        TileWork work{&target_, draws_, target_.drawCount, options_.clear, false, false};
+        TileWork work{&target_, draws_, target_.drawCount, options_.clear, false, false, false};
         for (const Draw& draw : draws_) {
             work.usesId = work.usesId || draw.state.idWrite;
             work.usesStencil = work.usesStencil || draw.state.stencil.enabled;
+            work.writesDepth = work.writesDepth || draw.state.depthWrite;
         }
         parallelFor(grid_.count(), options_.threads, [&](size_t t) {
             const size_t first = scratch_.firstListed[t], size = scratch_.firstListed[t + 1] - first;

@@ -121,6 +121,9 @@ class RenderTarget {
 // The stored integer of depth 1 (the clear value).
 uint32_t farthestDepth(DepthFormat format);
 
+// A stored integer behind every depth that is drawn: where it stands every depth is less. It stands for 2.
+uint32_t depthBehindAll(DepthFormat format);
+
 // The depth in [0, 1] that a stored integer stands for.
 double depthFromStored(DepthFormat format, uint32_t stored);
 

@@ -28,6 +28,11 @@ EdgeFunction edgeBetween(const ProjectedVertex& a, const ProjectedVertex& b) {
     return edgeBetween(a.x_subpx, a.y_subpx, b.x_subpx, b.y_subpx);
 }
 
+std::array<EdgeFunction, 3> edgesOf(const ProjectedVertex& a, const ProjectedVertex& b,
+                                    const ProjectedVertex& c) {
+    return {edgeBetween(b, c), edgeBetween(c, a), edgeBetween(a, b)};
+}
+
 // Orientation made positive.
 StoredTriangle storedTriangle(std::array<uint32_t, 3> vertex, int64_t area, bool front) {
     StoredTriangle t{};
@@ -53,7 +58,8 @@ void TriangleSetup::begin(const ViewportTransform& transform, const TileGrid& gr
     transform_ = &transform;
     grid_ = &grid;
     triangles.clear();
-    boxes.clear();
+    tiles.clear();
+    endOfTiles.clear();
     clippedVertices.clear();
     countOfTile.assign(grid.count(), 0);
     statistics = {};
@@ -118,7 +124,8 @@ void TriangleSetup::addTriangle(const DrawInput& input, uint32_t index,
     t.draw = input.number;
     t.triangle = index;
     triangles.push_back(t);
-    addBox(grid_->tilesOf(box));
+    addTilesInside(grid_->tilesOf(box), a, area > 0 ? b : c, area > 0 ? c : b);
+    endTiles();
     statistics.records++;
 }
 
@@ -127,7 +134,7 @@ bool TriangleSetup::missesAll(const TileGrid::PixelBox& box, const ProjectedVert
                               const ProjectedVertex& b, const ProjectedVertex& c) const {
     constexpr int kFewPixels = 4;
     if (!grid_->hasOneSample() || (box.x1 - box.x0 + 1) * (box.y1 - box.y0 + 1) > kFewPixels) return false;
-    const EdgeFunction bc = edgeBetween(b, c), ca = edgeBetween(c, a), ab = edgeBetween(a, b);
+    const auto [bc, ca, ab] = edgesOf(a, b, c);
     for (int y = box.y0; y <= box.y1; y++)
         for (int x = box.x0; x <= box.x1; x++) {
             const int64_t px = grid_->sampleX_subpx(x), py = grid_->sampleY_subpx(y);
@@ -136,10 +143,41 @@ bool TriangleSetup::missesAll(const TileGrid::PixelBox& box, const ProjectedVert
     return true;
 }
 
-void TriangleSetup::addBox(const TileBox& box) {
-    boxes.push_back(box);
+void TriangleSetup::addTile(size_t tile) {
+    tiles.push_back(static_cast<uint32_t>(tile));
+    countOfTile[tile]++;
+}
+
+void TriangleSetup::addTiles(const TileBox& box) {
     for (int y = box.y0; y <= box.y1; y++)
-        for (int x = box.x0; x <= box.x1; x++) countOfTile[grid_->index(x, y)]++;
+        for (int x = box.x0; x <= box.x1; x++) addTile(grid_->index(x, y));
+}
+
+// The tiles of the box but for those that are beyond one of the edges as a whole. Positive orientation.
+void TriangleSetup::addTilesInside(const TileBox& box, const ProjectedVertex& a, const ProjectedVertex& b,
+                                   const ProjectedVertex& c) {
+    constexpr int kFewTiles = 4;
+    if ((box.x1 - box.x0 + 1) * (box.y1 - box.y0 + 1) <= kFewTiles) return addTiles(box);
+    const std::array<EdgeFunction, 3> edges = edgesOf(a, b, c);
+    // The largest E - 1 + ownsZero of each edge among the samples of a tile.
+    const auto columns = grid_->samplesOfColumn(box.x0), rows = grid_->samplesOfRow(box.y0);
+    std::array<int64_t, 3> ofRow, stepX, stepY;
+    for (size_t i = 0; i < 3; i++) {
+        const EdgeFunction& edge = edges[i];
+        ofRow[i] =
+            edge.at(edge.stepX > 0 ? columns.last : columns.first, edge.stepY > 0 ? rows.last : rows.first) -
+            (edge.ownsZero ? 0 : 1);
+        stepX[i] = edge.stepX * grid_->tileSize_subpx();
+        stepY[i] = edge.stepY * grid_->tileSize_subpx();
+    }
+    for (int y = box.y0; y <= box.y1; y++) {
+        std::array<int64_t, 3> largest = ofRow;
+        for (int x = box.x0; x <= box.x1; x++) {
+            if ((largest[0] | largest[1] | largest[2]) >= 0) addTile(grid_->index(x, y));
+            for (size_t i = 0; i < 3; i++) largest[i] += stepX[i];
+        }
+        for (size_t i = 0; i < 3; i++) ofRow[i] += stepY[i];
+    }
 }
 
 void TriangleSetup::addClipped(const DrawInput& input, uint32_t index, const std::array<uint32_t, 3>& corners,
@@ -194,13 +232,15 @@ void TriangleSetup::addClipped(const DrawInput& input, uint32_t index, const std
             xMin = std::min(xMin, v[k].x_subpx), xMax = std::max(xMax, v[k].x_subpx);
             yMin = std::min(yMin, v[k].y_subpx), yMax = std::max(yMax, v[k].y_subpx);
         }
-        addBox(isGroup ? kNoTiles : grid_->tilesOf(grid_->pixelsOf(xMin, yMin, xMax, yMax)));
+        if (isGroup) continue;
+        const size_t second = piece > 0 ? i : i + 1, third = piece > 0 ? i + 1 : i;
+        addTilesInside(grid_->tilesOf(grid_->pixelsOf(xMin, yMin, xMax, yMax)), v[0], v[second], v[third]);
+        endTiles();
     }
     if (!isGroup) return;
     triangles[firstPiece].groupSize = static_cast<uint8_t>(triangles.size() - firstPiece);
-    boxes.resize(firstPiece);
-    addBox(grid_->tilesOf(grid_->pixelsOf(xMin, yMin, xMax, yMax)));
-    boxes.resize(triangles.size(), kNoTiles);
+    addTiles(grid_->tilesOf(grid_->pixelsOf(xMin, yMin, xMax, yMax)));
+    while (endOfTiles.size() < triangles.size()) endTiles();
 }
 
 }  // namespace etalon

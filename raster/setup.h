@@ -45,7 +45,9 @@ class TriangleSetup {
     void process(const DrawInput& input, size_t first, size_t last);
 
     std::vector<StoredTriangle> triangles;
-    std::vector<TileBox> boxes;  // of each triangle; a group has the box of all its pieces at its first one
+    std::vector<uint32_t>
+        tiles;  // of the first triangle, of the second one ...; a group's at its first piece
+    std::vector<size_t> endOfTiles;  // for each triangle: the number of tiles up to its last one
     std::vector<ClippedVertex> clippedVertices;
     std::vector<uint32_t> countOfTile;
     RasterStatistics statistics;
@@ -57,7 +59,11 @@ class TriangleSetup {
                    const ProjectedVertex& c) const;
     void addClipped(const DrawInput& input, uint32_t index, const std::array<uint32_t, 3>& corners,
                     int planes);
-    void addBox(const TileBox& box);
+    void addTile(size_t tile);
+    void addTiles(const TileBox& box);
+    void addTilesInside(const TileBox& box, const ProjectedVertex& a, const ProjectedVertex& b,
+                        const ProjectedVertex& c);
+    void endTiles() { endOfTiles.push_back(tiles.size()); }
 
     const ViewportTransform* transform_ = nullptr;
     const TileGrid* grid_ = nullptr;

@@ -153,6 +153,10 @@ struct TexelFetch {
     static T contiguous(const Stored* from) {
         if constexpr (std::is_same_v<T, Lanes<Stored, kCount>>)
             return T::load(from);
+        else if constexpr (kCount > 1 && std::is_same_v<T, Lanes<float, kCount>> &&
+                           std::is_same_v<Stored, double>)
+            return joinLanes(convertLanes<float>(Half::load(from)),
+                             convertLanes<float>(Half::load(from + kCount / 2)));
         else if constexpr (std::is_constructible_v<T, Lanes<Stored, kCount>>)
             return T(Lanes<Stored, kCount>::load(from));
         else
@@ -165,9 +169,19 @@ struct TexelFetch {
             storeActive(value, to, active);
         else if constexpr (requires { storeActive(value.v, to, active); })
             storeActive(value.v, to, active);
-        else
+        else if constexpr (kCount > 1 && std::is_same_v<T, Lanes<float, kCount>> &&
+                           std::is_same_v<Stored, double>) {
+            constexpr int kHalf = kCount / 2;
+            storeActive(convertLanes<double>(lowerLanes(value)), to, std::min(active, kHalf));
+            if (active > kHalf)
+                storeActive(convertLanes<double>(upperLanes(value)), to + kHalf, active - kHalf);
+        } else
             for (int i = 0; i < active; i++) to[i] = static_cast<Stored>(numberLane(value, i));
     }
+
+  private:
+    // Doubles are moved a register at a time.
+    using Half = Lanes<double, std::max(1, kCount / 2)>;
 };
 
 }  // namespace etalon

@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "raster/block_depth.h"
 #include "raster/depth.h"
 #include "raster/setup.h"
 #include "raster/tile_group.h"
@@ -11,8 +12,6 @@
 namespace etalon {
 namespace {
 
-// Large triangles are decided in blocks of 8 x 8 pixels first.
-constexpr int kBlockSize = 8;
 static_assert(kBlockSize % kGroupWidth == 0 && kBlockSize % kGroupRows == 0);
 
 using Rectangle = TileGrid::Rectangle;
@@ -42,18 +41,52 @@ struct Piece {
     const DrawState* state;
 };
 
+// What a draw does with its samples; the two special ones are written out for speed.
+//   plain: less passes and is written, no stencil
+//   counting: less passes, nothing is written but a stencil that every sample adds 1, 0 or -1 to (modulo
+//   256), by
+//             the outcome of the depth test
+enum class DrawKind { any, plain, counting };
+
+// 1, 0 or -1 for an operation that adds it modulo 256; else kNoFixedNumber.
+constexpr int kNoFixedNumber = 2;
+int addedBy(StencilOperation operation) {
+    switch (operation) {
+        case StencilOperation::keep:
+            return 0;
+        case StencilOperation::incrementWrap:
+            return 1;
+        case StencilOperation::decrementWrap:
+            return -1;
+        default:
+            return kNoFixedNumber;
+    }
+}
+bool isCounting(const StencilFace& face) {
+    return face.compare == Compare::always && addedBy(face.onDepthFail) != kNoFixedNumber &&
+           addedBy(face.onPass) != kNoFixedNumber;
+}
+DrawKind kindOf(const DrawState& state) {
+    if (state.depthCompare != Compare::less) return DrawKind::any;
+    const StencilState& stencil = state.stencil;
+    if (stencil.enabled) {
+        const bool writesNothingElse = !state.depthWrite && !state.idWrite && stencil.writeMask == 0xff;
+        return writesNothingElse && isCounting(stencil.front) && isCounting(stencil.back) ? DrawKind::counting
+                                                                                          : DrawKind::any;
+    }
+    return state.depthWrite ? DrawKind::plain : DrawKind::any;
+}
+
 // kGroup pixels of one sample plane.
 struct Group {
     int x, y;       // target pixel of the first
     size_t offset;  // of the first in the tile's planes
 };
 
-// a compared with b: a Result (a mask for lanes, bool for single values).
-template <class Result, class Value>
-Result compareValues(Compare compare, Value a, Value b) {
+GroupMask compareValues(Compare compare, GroupInt a, GroupInt b) {
     switch (compare) {
         case Compare::never:
-            return Result(false);
+            return GroupMask(false);
         case Compare::less:
             return a < b;
         case Compare::equal:
@@ -67,29 +100,30 @@ Result compareValues(Compare compare, Value a, Value b) {
         case Compare::greaterEqual:
             return a >= b;
         case Compare::always:
-            return Result(true);
+            return GroupMask(true);
     }
-    return Result(false);
+    return GroupMask(false);
 }
 
-uint8_t stencilResult(StencilOperation operation, uint8_t stored, uint8_t reference) {
+GroupInt stencilResult(StencilOperation operation, GroupInt stored, GroupInt reference) {
+    const GroupInt one = splat(1), largest = splat(255);
     switch (operation) {
         case StencilOperation::keep:
             return stored;
         case StencilOperation::zero:
-            return 0;
+            return splat(0);
         case StencilOperation::replace:
             return reference;
         case StencilOperation::incrementClamp:
-            return static_cast<uint8_t>(std::min(stored + 1, 255));
+            return select(stored < largest, stored + one, largest);
         case StencilOperation::decrementClamp:
-            return static_cast<uint8_t>(std::max(stored - 1, 0));
+            return select(stored > splat(0), stored - one, splat(0));
         case StencilOperation::invert:
-            return static_cast<uint8_t>(~stored);
+            return largest - stored;
         case StencilOperation::incrementWrap:
-            return static_cast<uint8_t>(stored + 1);
+            return (stored + one) & largest;
         case StencilOperation::decrementWrap:
-            return static_cast<uint8_t>(stored - 1);
+            return (stored - one) & largest;
     }
     return stored;
 }
@@ -143,9 +177,9 @@ class TileRasterizerOfLevel final : public TileRasterizer {
     void drawAll(const TileWork& work, std::span<const uint32_t> triangles);
     template <class Real>
     void drawPiece(const Piece& piece);
-    template <class Real, bool kPlain>
+    template <class Real, DrawKind kKind>
     void drawSmallPiece(const Piece& piece);
-    template <class Real, bool kPlain>
+    template <class Real, DrawKind kKind>
     void drawLargePiece(const Piece& piece);
     template <class Real>
     void drawGroup(std::span<const Piece> pieces);
@@ -154,12 +188,27 @@ class TileRasterizerOfLevel final : public TileRasterizer {
     template <class Visit>
     void forEachGroup(const Piece& box, int sample, Visit visit) const;
     GroupMask insideRectangle(const Group& group) const;
-    template <class Real, bool kPlain>
+    template <class Real, DrawKind kKind>
     void test(const Piece& piece, const PieceDepth<Real>& depth, const typename PieceDepth<Real>::vec3& e,
               const Group& group, GroupMask covered);
-    bool isPlain(const DrawState& state) const {
-        return state.depthCompare == Compare::less && state.depthWrite && !state.stencil.enabled &&
-               format_.depth == DepthFormat::d32f;
+    void findRanges();
+    // -1, 0 or 1 for the block's samples whose depth test passes, and for those whose does not.
+    struct Added {
+        int onPass, onFail;
+    };
+    static Added addedBy(const Piece& piece) {
+        const StencilState& stencil = piece.state->stencil;
+        const StencilFace& face = piece.front ? stencil.front : stencil.back;
+        return {etalon::addedBy(face.onPass), etalon::addedBy(face.onDepthFail)};
+    }
+    void count(const Group& group, GroupInt added) {
+        int32_t* at = &stencil_[group.offset];
+        storeGroup((loadGroup(at, stride_) + added) & splat(0xff), at, stride_);
+    }
+    const DepthRange& rangeOf(const Piece& block, int sample) const {
+        const int row = (block.y0 - rectangle_.tileY) / kBlockSize,
+                  column = (block.x0 - rectangle_.tileX) / kBlockSize;
+        return ranges_[static_cast<size_t>((sample * blockRows_ + row) * blocksPerRow_ + column)];
     }
     GroupMask testStencil(const Piece& piece, const Group& group, GroupMask covered, GroupMask depthPassed);
 
@@ -184,9 +233,11 @@ class TileRasterizerOfLevel final : public TileRasterizer {
     int rows_ = 0;
     size_t stride_ = 0;
     std::vector<SampleInterval> intervals_;  // in x, in y
-    std::vector<int32_t> depth_, id_;
-    std::vector<uint8_t> stencil_;
+    std::vector<int32_t> depth_, id_, stencil_;
     std::vector<Piece> group_;
+    // What the blocks of each sample's plane store, row after row; empty if some draw writes depth.
+    std::vector<DepthRange> ranges_;
+    int blocksPerRow_ = 0, blockRows_ = 0;
 };
 
 void TileRasterizerOfLevel::run(const TileWork& work, const Rectangle& rectangle,
@@ -201,6 +252,8 @@ void TileRasterizerOfLevel::run(const TileWork& work, const Rectangle& rectangle
     load(true, work, target.depth, farthestDepth(format_.depth), depth_);
     load(work.usesId, work, target.id, kNoTriangle, id_);
     load(work.usesStencil, work, target.stencil, uint8_t{0}, stencil_);
+    ranges_.clear();
+    if (!work.writesDepth && work.usesStencil) findRanges();
     if (format_.real == RasterReal::fp32)
         drawAll<float>(work, triangles);
     else
@@ -243,6 +296,27 @@ void TileRasterizerOfLevel::store(bool used, const TileWork& work, Image<Stored>
                    [&](Stored* to, size_t from, size_t count) { std::copy_n(&plane[from], count, to); });
     else if (work.clear)
         forEachRow(image, [&](Stored* to, size_t, size_t count) { std::fill_n(to, count, cleared); });
+}
+
+void TileRasterizerOfLevel::findRanges() {
+    blocksPerRow_ = (rectangle_.x1 - rectangle_.tileX + kBlockSize - 1) / kBlockSize;
+    blockRows_ = (rectangle_.y1 - rectangle_.tileY + kBlockSize - 1) / kBlockSize;
+    for (int s = 0; s < format_.samples; s++)
+        for (int row = 0; row < blockRows_; row++)
+            for (int column = 0; column < blocksPerRow_; column++) {
+                const int x0 = std::max(rectangle_.tileX + column * kBlockSize, rectangle_.x0),
+                          y0 = std::max(rectangle_.tileY + row * kBlockSize, rectangle_.y0),
+                          x1 = std::min(rectangle_.tileX + (column + 1) * kBlockSize, rectangle_.x1),
+                          y1 = std::min(rectangle_.tileY + (row + 1) * kBlockSize, rectangle_.y1);
+                int32_t nearest = INT32_MAX, farthest = 0;
+                for (int y = y0; y < y1; y++)
+                    for (int x = x0; x < x1; x++) {
+                        const int32_t depth = depth_[offsetOf(x, y, s)];
+                        nearest = std::min(nearest, depth), farthest = std::max(farthest, depth);
+                    }
+                ranges_.push_back({depthFromStored(format_.depth, static_cast<uint32_t>(nearest)),
+                                   depthFromStored(format_.depth, static_cast<uint32_t>(farthest))});
+            }
 }
 
 Piece TileRasterizerOfLevel::preparePiece(const RenderTarget& target, uint32_t number,
@@ -296,11 +370,17 @@ void TileRasterizerOfLevel::drawAll(const TileWork& work, std::span<const uint32
 template <class Real>
 void TileRasterizerOfLevel::drawPiece(const Piece& piece) {
     if (piece.x0 > piece.x1 || piece.y0 > piece.y1) return;
-    const bool plain = isPlain(*piece.state);
-    if (piece.isSmall)
-        plain ? drawSmallPiece<Real, true>(piece) : drawSmallPiece<Real, false>(piece);
-    else
-        plain ? drawLargePiece<Real, true>(piece) : drawLargePiece<Real, false>(piece);
+    const auto draw = [&]<DrawKind kKind>() {
+        piece.isSmall ? drawSmallPiece<Real, kKind>(piece) : drawLargePiece<Real, kKind>(piece);
+    };
+    switch (kindOf(*piece.state)) {
+        case DrawKind::any:
+            return draw.template operator()<DrawKind::any>();
+        case DrawKind::plain:
+            return draw.template operator()<DrawKind::plain>();
+        case DrawKind::counting:
+            return draw.template operator()<DrawKind::counting>();
+    }
 }
 
 // Calls visit(group, x, y) for groups that cover the piece's box; (x, y) is the group's place in the box.
@@ -316,7 +396,7 @@ template <class Visit>
 }
 
 // 32-bit edge values.
-template <class Real, bool kPlain>
+template <class Real, DrawKind kKind>
 void TileRasterizerOfLevel::drawSmallPiece(const Piece& piece) {
     PieceDepth<Real> depth;
     const int n = format_.subpixelBits;
@@ -340,9 +420,9 @@ void TileRasterizerOfLevel::drawSmallPiece(const Piece& piece) {
             if (!anyOf(covered)) return;
             if (!holds(group)) covered = covered && insideRectangle(group);
             if (!depth.isSet) depth.set(piece);
-            test<Real, kPlain>(piece, depth,
-                               {convertLanes<Real>(e[0]), convertLanes<Real>(e[1]), convertLanes<Real>(e[2])},
-                               group, covered);
+            test<Real, kKind>(piece, depth,
+                              {convertLanes<Real>(e[0]), convertLanes<Real>(e[1]), convertLanes<Real>(e[2])},
+                              group, covered);
         });
     }
 }
@@ -350,8 +430,8 @@ void TileRasterizerOfLevel::drawSmallPiece(const Piece& piece) {
 // Decides each edge for a block first; its groups then look at the undecided edges only. There edge values
 // are floored to whole pixels' steps, E >> n, which keeps the sign and fits 32 bits near an undecided edge:
 // |step| <= 2^25, so |E >> n| < 7 * 2 * 2^25 < 2^29 in the block. Depth takes E itself, below 2^53, from
-// doubles.
-template <class Real, bool kPlain>
+// doubles. Blocks whose samples all pass the depth test, or all fail, are counted without their depths.
+template <class Real, DrawKind kKind>
 void TileRasterizerOfLevel::drawLargePiece(const Piece& piece) {
     PieceDepth<Real> depth;
     depth.set(piece);
@@ -359,8 +439,14 @@ void TileRasterizerOfLevel::drawLargePiece(const Piece& piece) {
     GroupInt lanes[3];
     GroupDouble laneValues[3];
     double stepX[3], stepY[3];
+    int64_t least[3],
+        most[3];  // from the block's first pixel to the one with the least, and the largest, value
     for (size_t i = 0; i < 3; i++) {
         const Piece::Edge& edge = piece.edges[i];
+        const int64_t acrossX = int64_t{edge.stepX} * (kBlockSize - 1),
+                      acrossY = int64_t{edge.stepY} * (kBlockSize - 1);
+        least[i] = std::min<int64_t>(acrossX, 0) + std::min<int64_t>(acrossY, 0);
+        most[i] = std::max<int64_t>(acrossX, 0) + std::max<int64_t>(acrossY, 0);
         lanes[i] = splat(edge.stepX) * laneX() + splat(edge.stepY) * laneY();
         stepX[i] = static_cast<double>(int64_t{edge.stepX} * (1 << n));
         stepY[i] = static_cast<double>(int64_t{edge.stepY} * (1 << n));
@@ -369,21 +455,30 @@ void TileRasterizerOfLevel::drawLargePiece(const Piece& piece) {
             return stepX[i] * column + stepY[i] * row;
         });
     }
-    const auto drawBlock = [&](const Piece& block, int sample) {
+    const double step = format_.depth == DepthFormat::d32f ? 0.0 : 1 / depthLevels(format_.depth);
+    const BlockDepth blockDepth(piece.z, static_cast<double>(piece.area), stepX, stepY, piece.bias, step);
+    const auto drawBlock = [&](const Piece& block, int sample, const std::array<int64_t, 3>& values) {
         const auto [x_subpx, y_subpx] = samplePosition(block.x0, block.y0, sample);
         int undecided[3], undecidedCount = 0;
         int32_t floored[3];
         double first[3];
         for (size_t i = 0; i < 3; i++) {
             const Piece::Edge& edge = piece.edges[i];
-            const int64_t exact = edge.at(x_subpx, y_subpx), value = (exact - edge.excluded) >> n;
-            const int64_t acrossX = int64_t{edge.stepX} * (kBlockSize - 1),
-                          acrossY = int64_t{edge.stepY} * (kBlockSize - 1);
-            if (value + std::max<int64_t>(acrossX, 0) + std::max<int64_t>(acrossY, 0) < 0) return;
-            first[i] = static_cast<double>(exact);
-            if (value + std::min<int64_t>(acrossX, 0) + std::min<int64_t>(acrossY, 0) >= 0) continue;
-            floored[i] = static_cast<int32_t>(value);
+            first[i] = static_cast<double>(edge.at(x_subpx, y_subpx));
+            if (values[i] + least[i] >= 0) continue;
+            floored[i] = static_cast<int32_t>(values[i]);
             undecided[undecidedCount++] = static_cast<int>(i);
+        }
+        bool isDecided = false;
+        int added = 0;
+        if constexpr (kKind == DrawKind::counting) {
+            if (!ranges_.empty()) {
+                const DepthRange drawn = blockDepth.at(first), &stored = rangeOf(block, sample);
+                const bool passes = drawn.farthest<stored.nearest, fails = drawn.nearest> stored.farthest;
+                isDecided = passes || fails;
+                added = passes ? addedBy(piece).onPass : addedBy(piece).onFail;
+                if (isDecided && added == 0) return;
+            }
         }
         forEachGroup(block, sample, [&](const Group& group, int x, int y) {
             GroupInt outside = splat(0);
@@ -395,23 +490,37 @@ void TileRasterizerOfLevel::drawLargePiece(const Piece& piece) {
             GroupMask covered = outside >= splat(0);
             if (!holds(group)) covered = covered && insideRectangle(group);
             if (!anyOf(covered)) return;
+            if (isDecided) return count(group, select(covered, splat(added), splat(0)));
             const auto edgeValue = [&](int i) {
                 const PartDouble atGroup(first[i] + (stepX[i] * x + stepY[i] * y));
                 GroupDouble e;
                 for (size_t part = 0; part < kParts; part++) e[part] = laneValues[i][part] + atGroup;
                 return groupOf<Real>(e);
             };
-            test<Real, kPlain>(piece, depth, {edgeValue(0), edgeValue(1), edgeValue(2)}, group, covered);
+            test<Real, kKind>(piece, depth, {edgeValue(0), edgeValue(1), edgeValue(2)}, group, covered);
         });
     };
     Piece block = piece;
-    for (int y = piece.y0; y <= piece.y1; y += kBlockSize)
-        for (int x = piece.x0; x <= piece.x1; x += kBlockSize)
-            for (int s = 0; s < format_.samples; s++) {
+    // Blocks begin where those of the tile do.
+    const int x0 = piece.x0 - (piece.x0 - rectangle_.tileX) % kBlockSize,
+              y0 = piece.y0 - (piece.y0 - rectangle_.tileY) % kBlockSize;
+    for (int s = 0; s < format_.samples; s++) {
+        const auto [x_subpx, y_subpx] = samplePosition(x0, y0, s);
+        std::array<int64_t, 3> ofRow;
+        for (size_t i = 0; i < 3; i++)
+            ofRow[i] = (piece.edges[i].at(x_subpx, y_subpx) - piece.edges[i].excluded) >> n;
+        for (int y = y0; y <= piece.y1; y += kBlockSize) {
+            block.y0 = y, block.y1 = std::min(y + kBlockSize - 1, piece.y1);
+            std::array<int64_t, 3> values = ofRow;
+            for (int x = x0; x <= piece.x1; x += kBlockSize) {
                 block.x0 = x, block.x1 = std::min(x + kBlockSize - 1, piece.x1);
-                block.y0 = y, block.y1 = std::min(y + kBlockSize - 1, piece.y1);
-                drawBlock(block, s);
+                if (((values[0] + most[0]) | (values[1] + most[1]) | (values[2] + most[2])) >= 0)
+                    drawBlock(block, s, values);
+                for (size_t i = 0; i < 3; i++) values[i] += int64_t{piece.edges[i].stepX} * kBlockSize;
             }
+            for (size_t i = 0; i < 3; i++) ofRow[i] += int64_t{piece.edges[i].stepY} * kBlockSize;
+        }
+    }
 }
 
 GroupMask TileRasterizerOfLevel::insideRectangle(const Group& group) const {
@@ -454,8 +563,9 @@ void TileRasterizerOfLevel::drawGroup(std::span<const Piece> pieces) {
             const auto& edges = pieces[k].edges;
             PieceDepth<Real> depth;
             depth.set(pieces[k]);
-            test<Real, false>(pieces[k], depth,
-                              {edgeValue(edges[0]), edgeValue(edges[1]), edgeValue(edges[2])}, group, mine);
+            test<Real, DrawKind::any>(pieces[k], depth,
+                                      {edgeValue(edges[0]), edgeValue(edges[1]), edgeValue(edges[2])}, group,
+                                      mine);
         }
     };
     for (int s = 0; s < format_.samples; s++)
@@ -496,8 +606,8 @@ template <class S, int N>
     return storedDepth(format, rounding, z);
 }
 
-// Depth and stencil test and the writes. kPlain: the draw's state isPlain.
-template <class Real, bool kPlain>
+// Depth and stencil test and the writes. kKind: that of the draw's state, or any.
+template <class Real, DrawKind kKind>
 [[gnu::always_inline]] inline void TileRasterizerOfLevel::test(const Piece& piece,
                                                                const PieceDepth<Real>& pieceDepth,
                                                                const typename PieceDepth<Real>::vec3& e,
@@ -506,15 +616,22 @@ template <class Real, bool kPlain>
     const GroupInt stored = loadGroup(&depth_[group.offset], stride_);
     GroupInt depth;
     GroupMask passed;
-    if constexpr (kPlain) {
-        depth = storedFloatDepth(pieceDepth.at(e));
+    if constexpr (kKind == DrawKind::counting) {
+        const Added added = addedBy(piece);
+        depth = storedByRegister(format_.depth, format_.depthRounding, pieceDepth.at(e));
+        const GroupInt ofOutcome = select(depth < stored, splat(added.onPass), splat(added.onFail));
+        return count(group, select(covered, ofOutcome, splat(0)));
+    }
+    if constexpr (kKind == DrawKind::plain) {
+        depth = storedByRegister(format_.depth, format_.depthRounding, pieceDepth.at(e));
         passed = covered && depth < stored;
     } else {
         depth = storedByRegister(format_.depth, format_.depthRounding, pieceDepth.at(e));
-        passed = covered && compareValues<GroupMask>(state.depthCompare, depth, stored);
+        passed = covered && compareValues(state.depthCompare, depth, stored);
         if (state.stencil.enabled) passed = testStencil(piece, group, covered, passed);
     }
-    if (kPlain || state.depthWrite) storeGroup(select(passed, depth, stored), &depth_[group.offset], stride_);
+    if (kKind == DrawKind::plain || state.depthWrite)
+        storeGroup(select(passed, depth, stored), &depth_[group.offset], stride_);
     if (state.idWrite) {
         int32_t* id = &id_[group.offset];
         storeGroup(select(passed, splat(static_cast<int32_t>(piece.id)), loadGroup(id, stride_)), id,
@@ -527,20 +644,21 @@ GroupMask TileRasterizerOfLevel::testStencil(const Piece& piece, const Group& gr
                                              GroupMask depthPassed) {
     const StencilState& stencil = piece.state->stencil;
     const StencilFace& face = piece.front ? stencil.front : stencil.back;
-    GroupMask passed(false);
-    for (int i = 0; i < kGroup; i++) {
-        if (!covered[i]) continue;
-        uint8_t& stored = stencil_[group.offset + static_cast<size_t>(i / kGroupWidth) * stride_ +
-                                   static_cast<size_t>(i % kGroupWidth)];
-        StencilOperation operation = face.onStencilFail;
-        if (compareValues<bool>(face.compare, stencil.reference & stencil.readMask,
-                                stored & stencil.readMask)) {
-            operation = depthPassed[i] ? face.onPass : face.onDepthFail;
-            passed.m[i] = depthPassed[i] ? -1 : 0;
-        }
-        const uint8_t result = stencilResult(operation, stored, stencil.reference);
-        stored = static_cast<uint8_t>((stored & ~stencil.writeMask) | (result & stencil.writeMask));
-    }
+    int32_t* at = &stencil_[group.offset];
+    const GroupInt stored = loadGroup(at, stride_), readMask = splat(stencil.readMask);
+    const GroupMask stencilPassed =
+        covered && compareValues(face.compare, splat(stencil.reference) & readMask, stored & readMask);
+    const GroupMask passed = stencilPassed && depthPassed;
+    GroupInt result = stored;
+    const auto apply = [&](StencilOperation operation, GroupMask where) {
+        if (operation == StencilOperation::keep) return;
+        result = select(where, stencilResult(operation, stored, splat(stencil.reference)), result);
+    };
+    apply(face.onStencilFail, covered && !stencilPassed);
+    apply(face.onDepthFail, stencilPassed && !depthPassed);
+    apply(face.onPass, passed);
+    const int32_t written = stencil.writeMask;
+    storeGroup((stored & splat(~written)) | (result & splat(written)), at, stride_);
     return passed;
 }
 

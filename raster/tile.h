@@ -16,8 +16,8 @@ struct TileWork {
     RenderTarget* target;
     std::span<const Draw> draws;  // they start at the target's draw number firstDraw
     uint32_t firstDraw;
-    bool clear;                // the tiles start cleared
-    bool usesId, usesStencil;  // some draw does
+    bool clear;                             // the tiles start cleared
+    bool usesId, usesStencil, writesDepth;  // some draw does
 };
 
 // Draws tiles, one after the other; keeps a tile's planes.

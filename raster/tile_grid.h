@@ -29,8 +29,9 @@ class SampleInterval {
     }
     int first(int32_t min_subpx) const { return (min_subpx - highest_ + (1 << bits_) - 1) >> bits_; }
     int last(int32_t max_subpx) const { return (max_subpx - lowest_) >> bits_; }
-    // The first sample of a pixel.
+    // The first sample of a pixel, and the last one.
     int32_t sampleOf(int pixel) const { return (pixel << bits_) + lowest_; }
+    int32_t lastSampleOf(int pixel) const { return (pixel << bits_) + highest_; }
 
   private:
     int bits_;
@@ -62,6 +63,15 @@ class TileGrid {
         return {columnOf(box.x0), rowOf(box.y0), columnOf(box.x1), rowOf(box.y1)};
     }
 
+    // Subpixels from the first to the last sample of a column of tiles (those of a row), and from column to
+    // column.
+    struct Samples {
+        int32_t first, last;
+    };
+    Samples samplesOfColumn(int column) const { return samplesOf(x_, firstX_ + column); }
+    Samples samplesOfRow(int row) const { return samplesOf(y_, firstY_ + row); }
+    int32_t tileSize_subpx() const { return x_.sampleOf(size_) - x_.sampleOf(0); }
+
     // The only sample of a pixel, in a format with one sample per pixel.
     bool hasOneSample() const { return samples_ == 1; }
     int32_t sampleX_subpx(int x) const { return x_.sampleOf(x); }
@@ -79,6 +89,9 @@ class TileGrid {
     // multiples of.
     uint16_t columnOf(int x) const { return columnOfBlock_[static_cast<size_t>(x >> 3)]; }
     uint16_t rowOf(int y) const { return rowOfBlock_[static_cast<size_t>(y >> 3)]; }
+    Samples samplesOf(const SampleInterval& axis, int tile) const {
+        return {axis.sampleOf(tile * size_), axis.lastSampleOf((tile + 1) * size_ - 1)};
+    }
 
     Viewport viewport_;
     int size_, firstX_, firstY_, columns_,

@@ -25,21 +25,11 @@
 #include <vector>
 
 #include "lighting/geometry.h"
+#include "lighting/occlusion.h"
 #include "raster/image.h"
 #include "raster/rasterizer.h"
 
 namespace etalon {
-
-struct OcclusionPoint {
-    glm::dvec3 position_m{0};
-    glm::dvec3 normal{0};  // unit; zero: no surface
-};
-
-struct Occlusion {
-    double open = 1;           // 0 to 1; 1 for points without a surface
-    glm::dvec3 bentNormal{0};  // unit: the mean of the open directions, weighted by the cosine; the normal
-                               // where nothing is open
-};
 
 // The vertices of a placed mesh, normals made unit.
 std::vector<OcclusionPoint> occlusionPointsOf(const PlacedMesh& placed);

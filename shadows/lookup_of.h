@@ -31,7 +31,7 @@ struct ShadowKernels {
 template <class T>
 class ShadowLookupOf final : public ShadowLookup {
   public:
-    ShadowLookupOf(const ShadowMap& map, int fractionBits, int threads);
+    ShadowLookupOf(const ShadowMap& map, int fractionBits, int threads, WindowSearch search);
     void find(const LitPoints& points, std::span<double> visibility) const override;
 
   private:
@@ -43,10 +43,13 @@ class ShadowLookupOf final : public ShadowLookup {
     static constexpr int N = NumberTraits<T>::lanes;
     static constexpr size_t kChunk = 256;  // points at a time
     static constexpr int kNoLayer = -1;
+    static constexpr int kBlock = 8;
 
     // A layer's texels with `pad` texels of the farthest depth around them.
     struct Plane {
         std::vector<Stored> texels;
+        // Of the texels of all windows that begin in a block of kBlock x kBlock texels, row after row.
+        std::vector<Stored> nearest, farthest;
         bool isDrawn() const { return !texels.empty(); }
     };
     // Where the points of a chunk fall.
@@ -74,8 +77,6 @@ class ShadowLookupOf final : public ShadowLookup {
     // Numbers of points first, first + 1 ...; behind the last one it repeats.
     template <class S>
     static T load(const S* from, int active) {
-        if constexpr (N > 1 && std::is_same_v<T, Lanes<float, N>> && std::is_same_v<S, double>)
-            if (active == N) return convertLanes<float>(Lanes<double, N>::load(from));
         if (active == N) return TexelFetch<T>::contiguous(from);
         return generateNumber<T>([&](int i) { return static_cast<double>(from[std::min(i, active - 1)]); });
     }
@@ -85,7 +86,12 @@ class ShadowLookupOf final : public ShadowLookup {
     }
 
     void fillPlane(size_t layer, int threads);
+    void findRanges(Plane& plane, int threads) const;
     bool unormRow(const uint32_t* stored, Stored* line) const;
+    size_t blockOf(int x, int y) const {
+        return static_cast<size_t>((y + pad_) / kBlock) * blocksPerRow_ +
+               static_cast<size_t>((x + pad_) / kBlock);
+    }
     const Stored* texel(int layer, int x, int y) const {
         return planes_[static_cast<size_t>(layer)].texels.data() +
                static_cast<ptrdiff_t>(y + pad_) * stride_ + (x + pad_);
@@ -94,6 +100,19 @@ class ShadowLookupOf final : public ShadowLookup {
     uint32_t shadowedInRow(const Stored* row, const T& depth, const T& perU, const T& perV,
                            const WindowColumns& du, const T& dv) const;
     uint32_t compareQuantised(const T& texels, const T& reference) const;
+    // Bits of lanes: the windows in which nothing is in the way, and those in which everything is; of others
+    // neither.
+    struct Decided {
+        uint32_t lit = 0, shadowed = 0;
+    };
+    Decided decide(const Places& places, size_t offset, int active) const;
+    // Texels in the way in the taps x taps windows that begin at the first texel, one to the right, one
+    // below, and both.
+    using Windows = std::array<int, 4>;
+    Windows shadowedInSmallWindow(const Stored* row, const T& depth, const T& perU, const T& perV,
+                                  const T& centreU, const T& centreV) const;
+    Windows shadowedInWindow(const Stored* row, const T& depth, const T& perU, const T& perV,
+                             const T& centreU, const T& centreV) const;
     void findWindow(const Places& places, size_t count, std::span<double> visibility) const;
     void findDisc(const LitPoints& points, size_t first, const Places& places, size_t count,
                   std::span<double> visibility) const;
@@ -103,10 +122,13 @@ class ShadowLookupOf final : public ShadowLookup {
     int fractionBits_ = 0, windowTaps_ = 0;
     int pad_ = 0;
     ptrdiff_t stride_ = 0;
-    double levels_ = 0;  // quantised: the texels are integers up to this
+    size_t blocksPerRow_ = 0;  // of the ranges; 0: there are none
+    double levels_ = 0;        // quantised: the texels are integers up to this
     T farthest_{};
     typename K::ShadowSpace space_;
-    WindowColumns columns_;  // 0, 1, 2 ...
+    WindowColumns columns_;               // 0, 1, 2 ...
+    T columnsOfTwoRows_, rowsOfTwoRows_;  // with 16 lanes: 0 ... 7 twice; 0 eight times, then 1
+    uint64_t window_ = 0;                 // taps columns of taps rows, a byte for each row
     std::vector<Plane> planes_;
     std::vector<glm::dvec2> pattern_;
     PatternTurns turns_;
@@ -114,7 +136,7 @@ class ShadowLookupOf final : public ShadowLookup {
 };
 
 template <class T>
-ShadowLookupOf<T>::ShadowLookupOf(const ShadowMap& map, int fractionBits, int threads)
+ShadowLookupOf<T>::ShadowLookupOf(const ShadowMap& map, int fractionBits, int threads, WindowSearch search)
     : map_(map), turns_(map.settings.seed) {
     const ShadowMapSettings& settings = map.settings;
     const ShadowProjection& p = map.projection;
@@ -162,10 +184,78 @@ ShadowLookupOf<T>::ShadowLookupOf(const ShadowMap& map, int fractionBits, int th
 
     for (size_t part = 0; part < columns_.size(); part++)
         columns_[part] = generateNumber<T>([&](int i) { return static_cast<double>(part * N) + i; });
+    columnsOfTwoRows_ = generateNumber<T>([](int i) { return i % 8; });
+    rowsOfTwoRows_ = generateNumber<T>([](int i) { return i / 8; });
+    for (int j = 0; j < std::min(windowTaps_, 8); j++)
+        window_ |= ((uint64_t{1} << windowTaps_) - 1) << (8 * j);
     pad_ = 2 * reach + 2;
     stride_ = p.width + 2 * pad_ + N;
     planes_.resize(map.layers.size());
     for (size_t layer = 0; layer < planes_.size(); layer++) fillPlane(layer, threads);
+    if (!isWindow || levels_ > 0 || search == WindowSearch::everyTexel) return;
+    blocksPerRow_ = static_cast<size_t>((p.width + 2 * pad_ + kBlock - 1) / kBlock);
+    for (Plane& plane : planes_)
+        if (plane.isDrawn()) findRanges(plane, threads);
+}
+
+// Down the columns of a row of blocks first, then along it.
+template <class T>
+void ShadowLookupOf<T>::findRanges(Plane& plane, int threads) const {
+    const int rows = map_.projection.width + 2 * pad_;
+    plane.nearest.resize(blocksPerRow_ * blocksPerRow_), plane.farthest.resize(plane.nearest.size());
+    parallelFor(blocksPerRow_, threads, [&](size_t block) {
+        const int first = static_cast<int>(block) * kBlock,
+                  last = std::min(first + kBlock + windowTaps_, rows);
+        std::vector<Stored> nearest(&plane.texels[static_cast<size_t>(first * stride_)],
+                                    &plane.texels[static_cast<size_t>(first * stride_)] + stride_);
+        std::vector<Stored> farthest = nearest;
+        for (int y = first + 1; y < last; y++) {
+            const Stored* row = &plane.texels[static_cast<size_t>(y * stride_)];
+            for (size_t x = 0; x < nearest.size(); x++) {
+                nearest[x] = row[x] < nearest[x] ? row[x] : nearest[x];
+                farthest[x] = row[x] > farthest[x] ? row[x] : farthest[x];
+            }
+        }
+        for (size_t b = 0; b < blocksPerRow_; b++) {
+            const auto from = static_cast<ptrdiff_t>(b * kBlock),
+                       to = std::min<ptrdiff_t>(from + kBlock + windowTaps_, rows);
+            plane.nearest[block * blocksPerRow_ + b] =
+                *std::min_element(&nearest[from], &nearest[from] + (to - from));
+            plane.farthest[block * blocksPerRow_ + b] =
+                *std::max_element(&farthest[from], &farthest[from] + (to - from));
+        }
+    });
+}
+
+// The reference depth rises or falls with du and with dv, roundings included: its extremes are at the corners
+// of the window. Where it is not a number it is 0, which shadows nothing.
+template <class T>
+typename ShadowLookupOf<T>::Decided ShadowLookupOf<T>::decide(const Places& places, size_t offset,
+                                                              int active) const {
+    Decided decided;
+    if (blocksPerRow_ == 0) return decided;
+    K kernels;
+    std::array<Stored, N> nearest{}, farthest{};
+    for (int i = 0; i < active; i++) {
+        const size_t at = offset + static_cast<size_t>(i), lane = static_cast<size_t>(i);
+        if (places.layer[at] == kNoLayer) continue;
+        const Plane& plane = planes_[static_cast<size_t>(places.layer[at])];
+        const size_t block = blockOf(places.x[at], places.y[at]);
+        nearest[lane] = plane.nearest[block], farthest[lane] = plane.farthest[block];
+    }
+    const T depth = load(&places.depth[offset], active), perU = load(&places.perU[offset], active),
+            perV = load(&places.perV[offset], active), left = load(&places.centreU[offset], active),
+            upper = load(&places.centreV[offset], active), taps(static_cast<double>(windowTaps_)),
+            right = left + taps, lower = upper + taps;
+    const T a = kernels.referenceDepth(depth, perU, perV, left, upper, farthest_),
+            b = kernels.referenceDepth(depth, perU, perV, right, upper, farthest_),
+            c = kernels.referenceDepth(depth, perU, perV, left, lower, farthest_),
+            d = kernels.referenceDepth(depth, perU, perV, right, lower, farthest_);
+    const T least = K::minOf(K::minOf(a, b), K::minOf(c, d)), most = K::maxOf(K::maxOf(a, b), K::maxOf(c, d));
+    const uint32_t lanes = static_cast<uint32_t>((uint64_t{1} << active) - 1);
+    decided.lit = bitsOf(most <= load(nearest.data(), N)) & lanes;
+    decided.shadowed = bitsOf(load(farthest.data(), N) < least) & lanes;
+    return decided;
 }
 
 template <class T>
@@ -178,7 +268,8 @@ void ShadowLookupOf<T>::fillPlane(size_t layer, int threads) {
     std::vector<Stored>& to = planes_[layer].texels;
     Stored farthest;
     TexelFetch<T>::store(levels_ > 0 ? T(levels_) : farthest_, &farthest, 1);
-    to.resize(static_cast<size_t>(stride_) * static_cast<size_t>(width + 2 * pad_));
+    // One more row than is looked at, for those that read two.
+    to.resize(static_cast<size_t>(stride_) * static_cast<size_t>(width + 2 * pad_ + 1));
     parallelFor(static_cast<size_t>(width + 2 * pad_), threads, [&](size_t row) {
         Stored* line = &to[row * static_cast<size_t>(stride_)];
         const int y = static_cast<int>(row) - pad_;
@@ -327,34 +418,82 @@ template <class T>
     return bits;
 }
 
+// The window of up to 8 x 8 texels as one word, a byte for each row; two rows at a time where that many lanes
+// are.
+template <class T>
+[[gnu::always_inline]] inline typename ShadowLookupOf<T>::Windows ShadowLookupOf<T>::shadowedInSmallWindow(
+    const Stored* row, const T& depth, const T& perU, const T& perV, const T& centreU,
+    const T& centreV) const {
+    const int taps = windowTaps_;
+    uint64_t bits = 0;
+    if constexpr (std::is_same_v<T, Lanes<float, 16>>) {
+        K kernels;
+        const T du = centreU + columnsOfTwoRows_;
+        // The row behind the last one is not counted.
+        for (int j = 0; j <= taps; j += 2, row += 2 * stride_) {
+            const T dv = centreV + (rowsOfTwoRows_ + T(static_cast<double>(j)));
+            using Row = Lanes<Stored, N / 2>;
+            const T texels(joinLanes(Row::load(row), Row::load(row + stride_)).v);
+            const T reference = kernels.referenceDepth(depth, perU, perV, du, dv, farthest_);
+            const uint64_t two =
+                levels_ > 0 ? compareQuantised(texels, reference) : bitsOf(texels < reference);
+            bits |= two << (8 * j);
+        }
+    } else {
+        WindowColumns du;
+        for (size_t part = 0; part * N <= static_cast<size_t>(taps); part++)
+            du[part] = centreU + columns_[part];
+        for (int j = 0; j <= taps; j++, row += stride_) {
+            const T dv = centreV + T(static_cast<double>(j));
+            bits |= uint64_t{shadowedInRow(row, depth, perU, perV, du, dv) & 0xff} << (8 * j);
+        }
+    }
+    const auto count = [&](int shift) { return std::popcount(bits >> shift & window_); };
+    return {count(0), count(1), count(8), count(9)};
+}
+
+template <class T>
+typename ShadowLookupOf<T>::Windows ShadowLookupOf<T>::shadowedInWindow(const Stored* row, const T& depth,
+                                                                        const T& perU, const T& perV,
+                                                                        const T& centreU,
+                                                                        const T& centreV) const {
+    const int taps = windowTaps_;
+    const uint32_t window = (1u << taps) - 1;
+    WindowColumns du;
+    for (size_t part = 0; part * N <= static_cast<size_t>(taps); part++) du[part] = centreU + columns_[part];
+    Windows shadowed{};
+    for (int j = 0; j <= taps; j++, row += stride_) {
+        const T dv = centreV + T(static_cast<double>(j));
+        const uint32_t bits = shadowedInRow(row, depth, perU, perV, du, dv);
+        const int left = std::popcount(bits & window), right = std::popcount(bits >> 1 & window);
+        if (j < taps) shadowed[0] += left, shadowed[1] += right;
+        if (j > 0) shadowed[2] += left, shadowed[3] += right;
+    }
+    return shadowed;
+}
+
 // pcf: the comparisons of each point side by side, then the weights of all points.
 template <class T>
 void ShadowLookupOf<T>::findWindow(const Places& places, size_t count, std::span<double> visibility) const {
     K kernels;
     const int taps = windowTaps_;
-    const uint32_t window = (1u << taps) - 1;
     std::array<std::array<Stored, kChunk>, 4> lit;
+    Decided decided;
     for (size_t i = 0; i < count; i++) {
+        const size_t lane = i % N;
+        if (lane == 0) decided = decide(places, i, static_cast<int>(std::min<size_t>(N, count - i)));
+        const bool isShadowed = (decided.shadowed >> lane & 1) != 0 && places.layer[i] != kNoLayer;
         const auto whole = static_cast<Stored>(taps * taps);
-        for (auto& corner : lit) corner[i] = whole;
-        if (places.layer[i] == kNoLayer) continue;
+        for (auto& corner : lit) corner[i] = isShadowed ? Stored(0) : whole;
+        if (places.layer[i] == kNoLayer || isShadowed || (decided.lit >> lane & 1) != 0) continue;
         const T depth(places.depth[i]), perU(places.perU[i]), perV(places.perV[i]);
-        WindowColumns du;
-        for (size_t part = 0; part * N <= static_cast<size_t>(taps); part++)
-            du[part] = T(places.centreU[i]) + columns_[part];
         const Stored* row = texel(places.layer[i], places.x[i], places.y[i]);
-        int upper[2] = {0, 0}, lower[2] = {0, 0};
-        for (int j = 0; j <= taps; j++, row += stride_) {
-            const T dv = T(places.centreV[i]) + T(static_cast<double>(j));
-            const uint32_t bits = shadowedInRow(row, depth, perU, perV, du, dv);
-            const int left = std::popcount(bits & window), right = std::popcount(bits >> 1 & window);
-            if (j < taps) upper[0] += left, upper[1] += right;
-            if (j > 0) lower[0] += left, lower[1] += right;
-        }
-        lit[0][i] = whole - static_cast<Stored>(upper[0]);
-        lit[1][i] = whole - static_cast<Stored>(upper[1]);
-        lit[2][i] = whole - static_cast<Stored>(lower[0]);
-        lit[3][i] = whole - static_cast<Stored>(lower[1]);
+        const Windows shadowed =
+            taps < 8
+                ? shadowedInSmallWindow(row, depth, perU, perV, T(places.centreU[i]), T(places.centreV[i]))
+                : shadowedInWindow(row, depth, perU, perV, T(places.centreU[i]), T(places.centreV[i]));
+        for (size_t corner = 0; corner < lit.size(); corner++)
+            lit[corner][i] = whole - static_cast<Stored>(shadowed[corner]);
     }
     forEachLaneGroup<N>(count, [&](size_t offset, int active) {
         const T part = kernels.litPart(load(&lit[0][offset], active), load(&lit[1][offset], active),

@@ -20,9 +20,14 @@ class ShadowLookup {
     virtual void find(const LitPoints& points, std::span<double> visibility) const = 0;
 };
 
+// ranges: pcf compares no texel of a window whose texels are all nearer than the point, or all not;
+// everyTexel: it compares each. The same visibility.
+enum class WindowSearch : uint8_t { ranges, everyTexel };
+
 struct LookupPasses {
     // fractionBits: of pcf's weights, as in raster/sampler.h.
-    std::unique_ptr<ShadowLookup> (*makeLookup)(const ShadowMap& map, int fractionBits, int threads);
+    std::unique_ptr<ShadowLookup> (*makeLookup)(const ShadowMap& map, int fractionBits, int threads,
+                                                WindowSearch search);
 };
 
 // Those of an arithmetic.

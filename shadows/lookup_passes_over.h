@@ -8,8 +8,9 @@ namespace etalon {
 
 template <class T>
 LookupPasses lookupPassesOver() {
-    return {[](const ShadowMap& map, int fractionBits, int threads) -> std::unique_ptr<ShadowLookup> {
-        return std::make_unique<ShadowLookupOf<T>>(map, fractionBits, threads);
+    return {[](const ShadowMap& map, int fractionBits, int threads,
+               WindowSearch search) -> std::unique_ptr<ShadowLookup> {
+        return std::make_unique<ShadowLookupOf<T>>(map, fractionBits, threads, search);
     }};
 }
 

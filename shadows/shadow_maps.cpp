@@ -11,8 +11,8 @@ void ShadowMaps::set(size_t light, ShadowMap map, const Profile& profile, int th
     entry.map.reset();
     if (map.layers.empty()) return;
     entry.map = std::make_unique<ShadowMap>(std::move(map));
-    entry.lookup =
-        lookupPasses(profile.fragment).makeLookup(*entry.map, profile.textureFractionBits, threads);
+    entry.lookup = lookupPasses(profile.fragment)
+                       .makeLookup(*entry.map, profile.textureFractionBits, threads, WindowSearch::ranges);
     // The look-up has its own copy.
     for (ShadowLayer& layer : entry.map->layers) layer = {};
 }

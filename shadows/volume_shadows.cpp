@@ -83,6 +83,15 @@ void addDraws(const DrawnVolume& drawn, const Caster& caster, const LightSource&
     draws.back().state.depthClamp = options.counting == VolumeCounting::zPass;
 }
 
+// Where nothing is visible nothing needs to be counted: there the depths make every sample of a volume pass
+// with zFail, and fail with zPass.
+void leaveOutBackground(RenderTarget& target, VolumeCounting counting) {
+    const uint32_t depth = counting == VolumeCounting::zFail ? depthBehindAll(target.format.depth) : 0;
+    const std::span<const uint32_t> ids = target.id.values();
+    for (size_t i = 0; i < ids.size(); i++)
+        if (ids[i] == kNoTriangle) target.depth.values()[i] = depth;
+}
+
 Image<uint32_t> visibleInstances(const VisibleScene& visible) {
     const RenderTarget& target = visible.target;
     Image<uint32_t> instances(target.width(), target.height(), target.format.samples);
@@ -106,6 +115,8 @@ VolumeShadows::VolumeShadows(const SurfaceScene& scene, const std::vector<Placed
     VisibleScene visible =
         findVisible(scene, placed, infinite, profile, options.samples, raster, options.excluded);
     instance_ = visibleInstances(visible);
+
+    leaveOutBackground(visible.target, options.counting);
 
     std::vector<std::optional<Caster>> prepared(placed.size());
     const auto casterOf = [&](uint32_t instance) -> const Caster& {

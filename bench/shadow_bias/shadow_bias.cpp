@@ -113,7 +113,9 @@ std::vector<double> visibilityOf(const LitPoints& points, const Setting& setting
     const ShadowMap map = renderShadowMap(scene, placed, fit, settings, profile, {});
     perMetre = map.projection.scale / (map.projection.isPerspective ? kLamp_m : 1);
     std::vector<double> visibility(points.size());
-    lookupPasses(profile.fragment).makeLookup(map, profile.textureFractionBits, 0)->find(points, visibility);
+    lookupPasses(profile.fragment)
+        .makeLookup(map, profile.textureFractionBits, 0, WindowSearch::ranges)
+        ->find(points, visibility);
     return visibility;
 }
 

@@ -162,28 +162,47 @@ TEST_CASE("APngNeedsTheBeautyWhateverTheOutputsAre") {
     CHECK(plan.find("tone mapping")->runs);
 }
 
-TEST_CASE("ShadowMapsRunForLightsThatNeedThem") {
+TEST_CASE("ShadowsRunForLightsThatNeedThem") {
     Scene scene = fullScene();
-    scene.lights.resize(3);
+    scene.lights.resize(4);
     for (SceneLight& light : scene.lights) light.irradiance = glm::dvec3(1);
-    scene.lights[0].shadowMap.emplace();
-    scene.lights[2].shadowMap.emplace();
+    scene.lights[0].shadow.method = ShadowMethod::map;
+    scene.lights[2].shadow.method = ShadowMethod::volume;
+    scene.lights[3].shadow.method = ShadowMethod::planar;
+    const auto runningShadows = [](const Plan& plan) {
+        std::vector<bool> found;
+        for (const PlanShadow& shadow : plan.shadows) found.push_back(shadow.runs);
+        return found;
+    };
     // Without geometry anything may cast.
     const Plan first = makePlan(scene, {});
-    CHECK(first.shadowMap == std::vector<bool>{true, false, true});
+    CHECK(runningShadows(first) == std::vector<bool>{true, true, true});
+    CHECK(first.shadows[1].index == 2);
     CHECK(first.find("shadow map of light1") == nullptr);
-    const PlanPass& diffuse = *first.find("diffuse");
-    CHECK(std::ranges::count(diffuse.needs, "shadow map of light0") == 1);
-    // With it, what casts is named.
+    for (const char* need : {"shadow map of light0", "shadow volumes of light2", "planar shadows of light3"})
+        CHECK(std::ranges::count(first.find("diffuse")->needs, need) == 1);
+    // With it, what casts, or what shadows fall on, is named.
     VisibilityFacts facts;
     facts.objectVisible.assign(planObjects(scene).size(), true);
-    facts.castersOfLight = {{0, 2}, {}, {}};
+    facts.shadowObjects = {{0, 2}, {2}, {3}};
     const Plan plan = makePlan(scene, {}, &facts);
-    CHECK(plan.shadowMap == std::vector<bool>{true, false, false});
+    CHECK(runningShadows(plan) == std::vector<bool>{true, true, true});
     CHECK(plan.find("shadow map of light0")->reason == "cast by thing, ball");
-    CHECK(plan.find("shadow map of light2")->reason ==
-          "nothing stands between the light and what is visible");
-    CHECK(plan.memory_bytes > makePlan(fullScene(), {}).memory_bytes);
+    CHECK(plan.find("shadow volumes of light2")->reason == "cast by ball");
+    CHECK(plan.find("planar shadows of light3")->reason == "fall on plate");
+    CHECK(plan.memory_bytes == first.memory_bytes);
+    facts.shadowObjects = {{}, {}, {}};
+    const Plan nothing = makePlan(scene, {}, &facts);
+    CHECK(runningShadows(nothing) == std::vector<bool>{false, false, false});
+    for (const char* name : {"shadow map of light0", "shadow volumes of light2"})
+        CHECK(nothing.find(name)->reason == "nothing stands between the light and what is visible");
+    CHECK(nothing.find("planar shadows of light3")->reason == "no shadow falls on a plane that is visible");
+    CHECK(nothing.memory_bytes == makePlan(fullScene(), {}).memory_bytes);
+    for (size_t light : {0, 2, 3}) {
+        Scene one = fullScene();
+        one.lights = {scene.lights[light]};
+        CHECK(makePlan(one, {}).memory_bytes > nothing.memory_bytes);
+    }
     // Mirrors and the background have no shadows.
     PlanRequest request;
     request.outputs = {"normals"};
@@ -193,28 +212,76 @@ TEST_CASE("ShadowMapsRunForLightsThatNeedThem") {
     CHECK(makePlan(scene, {}).find("shadow map of light0")->reason == "the light is black");
 }
 
-TEST_CASE("ShadowVolumesRunForLightsThatNeedThem") {
+TEST_CASE("LightsOfAnEnvironmentThatCastAreNamed") {
     Scene scene = fullScene();
-    scene.lights.resize(2);
-    for (SceneLight& light : scene.lights) {
-        light.irradiance = glm::dvec3(1);
-        light.shadowVolumes = true;
-    }
-    const uint64_t memory_bytes = makePlan(scene, {}).memory_bytes;
+    scene.environment.lighting = EnvironmentLightMethod::lights;
+    scene.environment.shadow.method = ShadowMethod::map;
+    scene.environment.shadowLights = 3;
+    const uint64_t without_bytes = makePlan(fullScene(), {}).memory_bytes;
+    const uint64_t map_bytes = uint64_t{1024} * 1024 * (9 + 16);
+    // Before the lights are known there is room for as many as are asked for.
+    const Plan first = makePlan(scene, {});
+    CHECK(first.find("shadows of environment lights")->runs);
+    CHECK(first.shadows.empty());
+    CHECK(first.memory_bytes == without_bytes + 3 * map_bytes);
+
+    scene.environment.lightCount = 2;
+    CHECK(makePlan(scene, {}).memory_bytes == without_bytes + 2 * map_bytes);
+
     VisibilityFacts facts;
     facts.objectVisible.assign(planObjects(scene).size(), true);
-    facts.castersOfLight = {{}, {2}};
+    facts.environmentCasters = {{7, 0.0125, 0.25}, {2, 0.5, 0.125}};
+    facts.shadowObjects = {{0}, {}};
     const Plan plan = makePlan(scene, {}, &facts);
-    CHECK(plan.shadowVolumes == std::vector<bool>{false, true});
-    CHECK(plan.shadowMap == std::vector<bool>{false, false});
-    CHECK(plan.find("shadow volumes of light1")->reason == "cast by ball");
-    CHECK_FALSE(plan.find("shadow volumes of light0")->runs);
-    CHECK(std::ranges::count(plan.find("diffuse")->needs, "shadow volumes of light1") == 1);
-    CHECK(plan.memory_bytes < memory_bytes);
+    REQUIRE(plan.shadows.size() == 2);
+    CHECK(plan.shadows[0].index == scene.lights.size() + 7);
+    CHECK(plan.shadows[0].shadow == &scene.environment.shadow);
+    CHECK(plan.find("shadow map of environment light 7")->reason ==
+          "region of 0.0125 sr, 25 % of the energy; cast by thing");
+    CHECK(plan.find("shadow map of environment light 2")->reason ==
+          "region of 0.5 sr, 12.5 % of the energy; nothing stands between the light and what is visible");
+    CHECK(plan.memory_bytes == without_bytes + map_bytes);
+    facts.environmentCasters.emplace();
+    facts.shadowObjects.emplace();
+    CHECK(makePlan(scene, {}, &facts).find("shadows of environment lights")->reason == "it has no lights");
+    // What lights nothing casts no shadows.
+    PlanRequest request;
+    request.outputs = {"background"};
+    CHECK_FALSE(makePlan(scene, request).find("shadows of environment lights")->runs);
+}
+
+TEST_CASE("OcclusionRunsForLightFromEverywhere") {
+    Scene scene = fullScene();
+    CHECK(makePlan(scene, {}).find("ambient occlusion") == nullptr);
+    scene.render.occlusionDirections = 64;
+    const Plan plan = makePlan(scene, {});
+    CHECK(plan.occlusion);
+    CHECK(std::ranges::count(plan.find("ambient")->needs, "ambient occlusion") == 1);
+    CHECK(std::ranges::count(plan.find("diffuse")->needs, "ambient occlusion") == 0);
+    CHECK(plan.memory_bytes > makePlan(fullScene(), {}).memory_bytes);
+    // The environment's light is, its lights are not.
+    scene.ambient = glm::dvec3(0);
+    CHECK_FALSE(makePlan(scene, {}).occlusion);
+    for (const auto& [method, runs] : {std::pair(EnvironmentLightMethod::lights, false),
+                                       std::pair(EnvironmentLightMethod::dominant, false),
+                                       std::pair(EnvironmentLightMethod::harmonics, true),
+                                       std::pair(EnvironmentLightMethod::exact, true)}) {
+        scene.environment.lighting = method;
+        const Plan lit = makePlan(scene, {});
+        CHECK(lit.occlusion == runs);
+        CHECK((std::ranges::count(lit.find("diffuse")->needs, "ambient occlusion") == 1) == runs);
+    }
+    PlanRequest request;
+    request.outputs = {"specular", "depth"};
+    CHECK(makePlan(scene, request).find("ambient occlusion")->reason ==
+          "nothing that runs is lit from everywhere");
 }
 
 TEST_CASE("EveryPassHasAReasonAndNeedsPassesOfThePlan") {
-    for (const Scene& scene : {bareScene(), fullScene()}) {
+    Scene occluded = fullScene();
+    occluded.render.occlusionDirections = 64;
+    occluded.render.perVertex = true;
+    for (const Scene& scene : {bareScene(), fullScene(), occluded}) {
         const Plan plan = makePlan(scene, {});
         for (const PlanPass& pass : plan.passes) {
             CHECK_FALSE(pass.reason.empty());

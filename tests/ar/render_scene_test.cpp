@@ -31,6 +31,37 @@ Frame frameOf(const Scene& scene, const RenderOptions& options = {}) {
     return renderScene(scene, options).frame;
 }
 
+// shadow: of the scene.
+Frame withMethod(const Scene& scene, LightShadow& shadow, ShadowMethod method) {
+    shadow.method = method;
+    return frameOf(scene);
+}
+
+std::span<const float> valuesOf(const Frame& frame, size_t channel) {
+    return std::get<Image<float>>(frame.channels[channel].values).values();
+}
+double sumOf(const Frame& frame) {
+    double sum = 0;
+    for (size_t c = 0; c < frame.channels.size(); c++)
+        for (const float value : valuesOf(frame, c)) sum += static_cast<double>(value);
+    return sum;
+}
+
+// The sum of differences of a frame to another is less than `part` of that to a third, in each channel.
+void checkCloser(const Frame& frame, const Frame& other, const Frame& third, double part) {
+    for (size_t c = 0; c < frame.channels.size(); c++) {
+        const auto difference = [&](const Frame& to) {
+            double sum = 0;
+            for (size_t i = 0; i < valuesOf(frame, c).size(); i++)
+                sum += std::fabs(static_cast<double>(valuesOf(frame, c)[i]) -
+                                 static_cast<double>(valuesOf(to, c)[i]));
+            return sum;
+        };
+        CHECK(difference(third) > 0);
+        CHECK(difference(other) < part * difference(third));
+    }
+}
+
 }  // namespace
 
 TEST_CASE("ThreadsAndTilesChangeNoBitOfAFrame") {
@@ -40,6 +71,21 @@ TEST_CASE("ThreadsAndTilesChangeNoBitOfAFrame") {
         for (const auto& [threads, tile] :
              {std::pair(2, 64), std::pair(7, 32), std::pair(2, 16), std::pair(1, 256)})
             CHECK(sameBits(frameOf(scene, withRaster(threads, tile)), reference));
+    }
+}
+
+TEST_CASE("ThreadsAndTilesChangeNoBitOfOcclusion") {
+    for (const bool perVertex : {false, true}) {
+        Scene scene = loadScene("golden/scenes/environment_occlusion.toml");
+        scene.render.perVertex = perVertex;
+        scene.render.occlusionDirections = 24;
+        scene.render.occlusionMapSize = 128;
+        scene.meshes[1].cubeSize = 16;
+        const Frame reference = frameOf(scene, withRaster(1, 64));
+        for (const auto& [threads, tile] : {std::pair(2, 32), std::pair(7, 16)})
+            CHECK(sameBits(frameOf(scene, withRaster(threads, tile)), reference));
+        scene.render.occlusionDirections = 0;
+        CHECK_FALSE(sameBits(frameOf(scene), reference));
     }
 }
 
@@ -67,27 +113,51 @@ TEST_CASE("ShadowVolumesAreWhereTheMapsAre") {
     for (size_t light = 0; light < 3; light++) {
         Scene scene = loadScene("golden/scenes/shadows.toml");
         scene.lights = {scene.lights[light]};
-        scene.lights[0].shadowMap = defaultShadowMap();
-        scene.lights[0].shadowMap->size = 512;
+        LightShadow& shadow = scene.lights[0].shadow;
+        shadow.map = defaultShadowMap();
+        shadow.map.size = 512;
         scene.output.images = {"diffuse", "mirror"};
-        const Frame map = frameOf(scene);
-        scene.lights[0].shadowMap.reset();
-        const Frame none = frameOf(scene);
-        scene.lights[0].shadowVolumes = true;
-        const Frame volume = frameOf(scene);
-        for (size_t c = 0; c < volume.channels.size(); c++) {
-            double toMap = 0, toNone = 0;
-            for (size_t i = 0; i < std::get<Image<float>>(volume.channels[c].values).pixelCount(); i++) {
-                const auto at = [&](const Frame& frame) {
-                    return static_cast<double>(std::get<Image<float>>(frame.channels[c].values).values()[i]);
-                };
-                toMap += std::fabs(at(volume) - at(map));
-                toNone += std::fabs(at(volume) - at(none));
-            }
-            CHECK(toNone > 0);
-            CHECK(toMap < 0.25 * toNone);
-        }
+        const Frame none = withMethod(scene, shadow, ShadowMethod::none);
+        checkCloser(withMethod(scene, shadow, ShadowMethod::volume),
+                    withMethod(scene, shadow, ShadowMethod::map), none, 0.25);
     }
+}
+
+// Where only a plane receives shadows the methods show the same.
+TEST_CASE("LightsOfAnEnvironmentCastShadows") {
+    Scene scene = loadScene("golden/scenes/environment_lights.toml");
+    scene.lights.clear();
+    scene.meshes[0].material = scene.planes[0].material;
+    scene.materials[scene.meshes[0].material].kind = MaterialKind::lambert;
+    scene.output.images = {"diffuse"};
+    LightShadow& shadow = scene.environment.shadow;
+    shadow.map.size = 512;
+    shadow.planar.samples = 1;
+    scene.environment.shadowLights = 3;
+    const Frame none = withMethod(scene, shadow, ShadowMethod::none);
+    const Frame volumes = withMethod(scene, shadow, ShadowMethod::volume);
+    checkCloser(volumes, withMethod(scene, shadow, ShadowMethod::map), none, 0.25);
+    // Each light more takes more away; a light that is not there takes nothing.
+    double before = sumOf(none);
+    for (const int lights : {1, 3, 16}) {
+        scene.environment.shadowLights = lights;
+        const Frame frame = withMethod(scene, shadow, ShadowMethod::volume);
+        CHECK(sumOf(frame) < before);
+        before = sumOf(frame);
+        scene.environment.shadowLights = 16 + lights;
+        CHECK(sumOf(withMethod(scene, shadow, ShadowMethod::volume)) <= before);
+    }
+    // Planar shadows fall on the plane alone.
+    scene.environment.shadowLights = 3;
+    const Frame planar = withMethod(scene, shadow, ShadowMethod::planar);
+    CHECK(sumOf(planar) < sumOf(none));
+    CHECK(sumOf(planar) > sumOf(volumes));
+    // By their part of the energy: 16 lights of about the same.
+    scene.environment.shadowShare = 0.5;
+    CHECK(sameBits(withMethod(scene, shadow, ShadowMethod::volume), none));
+    const Plan plan = planScene(scene, {});
+    CHECK(plan.find("shadows of environment lights")->reason ==
+          "no light has so large a share of its energy");
 }
 
 TEST_CASE("AskingForMoreOutputsChangesNoBitOfTheOthers") {

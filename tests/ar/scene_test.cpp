@@ -196,14 +196,17 @@ TEST_CASE("ShadowsAreReadAsWritten") {
                                                         : "position = [1, 2, 3]\nintensity = [4, 5, 6]\n";
         return sceneText() + "[[light]]\nkind = '" + kind + "'\n" + light + keys;
     };
-    CHECK_FALSE(folder.load(lightWith("point", "")).lights[1].shadowMap.has_value());
-    CHECK_FALSE(folder.load(lightWith("point", "shadow = 'none'\n")).lights[1].shadowMap.has_value());
-    const auto read = [&](const std::string& kind, const std::string& keys) {
-        return *folder.load(lightWith(kind, "shadow = 'map'\n" + keys)).lights[1].shadowMap;
+    const auto methodWith = [&](const std::string& keys) {
+        return folder.load(lightWith("point", keys)).lights[1].shadow.method;
     };
-    const SceneLight volume = folder.load(lightWith("point", "shadow = 'volume'\n")).lights[1];
-    CHECK(volume.shadowVolumes);
-    CHECK_FALSE(volume.shadowMap.has_value());
+    CHECK(methodWith("") == ShadowMethod::none);
+    CHECK(methodWith("shadow = 'none'\n") == ShadowMethod::none);
+    CHECK(methodWith("shadow = 'map'\n") == ShadowMethod::map);
+    CHECK(methodWith("shadow = 'volume'\n") == ShadowMethod::volume);
+    CHECK(methodWith("shadow = 'planar'\n") == ShadowMethod::planar);
+    const auto read = [&](const std::string& kind, const std::string& keys) {
+        return folder.load(lightWith(kind, "shadow = 'map'\n" + keys)).lights[1].shadow.map;
+    };
     const ShadowMapSettings plain = read("point", "");
     CHECK(plain.size == 1024);
     CHECK(plain.depth == ShadowDepth::d24);
@@ -214,7 +217,14 @@ TEST_CASE("ShadowsAreReadAsWritten") {
         "point",
         "shadow_size = 64\nshadow_depth = 'linear'\nshadow_faces = 'back'\nshadow_bias = 3\n"
         "shadow_slope_bias = 1.5\nshadow_receiver_plane = false\nshadow_filter = 'soft'\nshadow_taps = 48\n"
-        "shadow_radius_texels = 8\nshadow_light_size_m = 0.25\n");
+        "shadow_radius_texels = 8\nshadow_light_size_m = 0.25\nshadow_normal_offset = 1.5\n"
+        "shadow_reference = 'quantised'\nshadow_snap = false\n");
+    CHECK(soft.normalOffset_texels == 1.5);
+    CHECK(soft.reference == ShadowReference::quantised);
+    CHECK_FALSE(soft.snap);
+    CHECK(plain.normalOffset_texels == 0);
+    CHECK(plain.reference == ShadowReference::clamped);
+    CHECK(plain.snap);
     CHECK(soft.size == 64);
     CHECK(soft.depth == ShadowDepth::linear);
     CHECK(soft.faces == ShadowFaces::back);
@@ -227,6 +237,17 @@ TEST_CASE("ShadowsAreReadAsWritten") {
     CHECK(soft.lightSize_m == 0.25);
     const ShadowMapSettings sun = read("directional", "shadow_filter = 'soft'\nshadow_light_deg = 90\n");
     CHECK(sun.tangentOfHalfAngle == doctest::Approx(1));
+    const auto readPlanar = [&](const std::string& kind, const std::string& keys) {
+        return folder.load(lightWith(kind, "shadow = 'planar'\n" + keys)).lights[1].shadow.planar;
+    };
+    const PlanarLightSettings planar = readPlanar(
+        "point", "shadow_size = 256\nshadow_samples = 49\nshadow_blur_m = 0.25\nshadow_light_size_m = 0.5\n");
+    CHECK(planar.resolution == 256);
+    CHECK(planar.samples == 49);
+    CHECK(planar.blurSigma_m == 0.25);
+    CHECK(planar.lightSize_m == 0.5);
+    CHECK(readPlanar("directional", "").samples == 25);
+    CHECK(readPlanar("directional", "shadow_light_deg = 90\n").tangentOfHalfAngle == doctest::Approx(1));
 
     const auto refused = [&](const std::string& kind, const std::string& keys) {
         return errorOf(folder, lightWith(kind, keys));
@@ -244,10 +265,67 @@ TEST_CASE("ShadowsAreReadAsWritten") {
     says(refused("point", "shadow = 'map'\nshadow_radius_texels = 4\n"), "needs shadow_filter");
     says(refused("point", "shadow = 'map'\nshadow_filter = 'soft'\n"), "missing key 'shadow_light_size_m'");
     says(refused("point", "shadow = 'map'\nshadow_filter = 'soft'\nshadow_light_deg = 1\n"),
-         "used by kind 'directional' alone");
+         "used by directional lights alone");
     says(refused("directional", "shadow = 'map'\nshadow_filter = 'soft'\nshadow_light_size_m = 1\n"),
-         "not used by kind 'directional'");
+         "not used by directional lights");
     says(refused("point", "shadow = 'map'\nshadow_light_size_m = 1\n"), "needs shadow_filter = \"soft\"");
+    says(refused("point", "shadow = 'map'\nshadow_normal_offset = -1\n"), "[0, 64]");
+    says(refused("point", "shadow = 'planar'\nshadow_snap = true\n"), "needs shadow = \"map\"");
+    says(refused("point", "shadow = 'map'\nshadow_blur_m = 1\n"), "needs shadow = \"planar\"");
+    says(refused("point", "shadow_samples = 4\n"), "needs shadow = \"planar\"");
+    says(refused("point", "shadow = 'planar'\nshadow_samples = 0\n"), "[1, 4096]");
+    says(refused("point", "shadow = 'planar'\nshadow_size = 15\n"), "[16, 8192]");
+    says(refused("point", "shadow = 'planar'\nshadow_bias = 1\n"), "needs shadow = \"map\"");
+    says(refused("point", "shadow = 'planar'\nshadow_light_deg = 1\n"), "used by directional lights alone");
+}
+
+TEST_CASE("ShadowsOfTheEnvironmentAreReadAsWritten") {
+    const SceneFolder folder;
+    const auto with = [&](const std::string& keys) { return sceneText(20, "constant = [1, 1, 1]\n" + keys); };
+    const auto read = [&](const std::string& keys) {
+        return folder.load(with("lighting = 'lights'\n" + keys)).environment;
+    };
+    CHECK(read("").shadow.method == ShadowMethod::none);
+    const Environment plain = read("shadow = 'map'\nshadow_size = 128\n");
+    CHECK(plain.shadow.method == ShadowMethod::map);
+    CHECK(plain.shadow.map.size == 128);
+    CHECK(plain.shadowLights == 4);
+    CHECK(plain.shadowShare == 0);
+    CHECK(read("shadow = 'volume'\nshadow_lights = 9\n").shadowLights == 9);
+    const Environment planar = read("shadow = 'planar'\nshadow_light_deg = 2\nshadow_share = 0.125\n");
+    CHECK(planar.shadow.planar.tangentOfHalfAngle > 0.0174);
+    CHECK(planar.shadowShare == 0.125);
+
+    const auto says = [&](const std::string& keys, const char* text) {
+        const std::string error = errorOf(folder, with(keys));
+        CHECK_MESSAGE(error.find(text) != std::string::npos, error);
+    };
+    const std::string lights = "lighting = 'lights'\n";
+    says("shadow = 'map'\n", "needs lighting = \"lights\" or \"dominant\"");
+    says("lighting = 'exact'\nshadow = 'map'\n", "needs lighting = \"lights\" or \"dominant\"");
+    says(lights + "shadow_lights = 2\n", "needs 'shadow' beside it");
+    says(lights + "shadow_size = 64\n", "needs shadow = \"map\" or \"planar\"");
+    says(lights + "shadow = 'map'\nshadow_lights = 0\n", "[1, 256]");
+    says(lights + "shadow = 'map'\nshadow_lights = 2\nshadow_share = 0.5\n", "cannot stand beside");
+    says(lights + "shadow = 'map'\nshadow_share = 0\n", "'shadow_share'");
+    says(lights + "shadow = 'map'\nshadow_light_size_m = 1\n", "not used by directional lights");
+}
+
+TEST_CASE("OcclusionIsReadAsWritten") {
+    const SceneFolder folder;
+    const auto with = [&](const std::string& keys) { return sceneText(5, keys); };
+    CHECK(folder.load(with("occlusion = 0")).render.occlusionDirections == 0);
+    const Render plain = folder.load(with("occlusion = 100")).render;
+    CHECK(plain.occlusionDirections == 100);
+    CHECK(plain.occlusionMapSize == 512);
+    CHECK(folder.load(with("occlusion = 1\nocclusion_size = 64")).render.occlusionMapSize == 64);
+    for (const auto& [keys, text] :
+         {std::pair("occlusion = 4097", "[0, 4096]"), std::pair("occlusion_size = 64", "needs 'occlusion'"),
+          std::pair("occlusion = 0\nocclusion_size = 64", "needs 'occlusion'"),
+          std::pair("occlusion = 1\nocclusion_size = 0", "[1, 8192]")}) {
+        const std::string error = errorOf(folder, with(keys));
+        CHECK_MESSAGE(error.find(text) != std::string::npos, error);
+    }
 }
 
 TEST_CASE("InstancesAreAppliedAfterTheMeshsOwnTransform") {
@@ -537,7 +615,9 @@ TEST_CASE("ShippedScenesLoad") {
     CHECK(demo.camera.height == 540);
     CHECK(demo.render.samples == 4);
     CHECK(demo.environment.kind == EnvironmentKind::file);
-    CHECK(demo.lights.size() == 3);
+    CHECK(demo.environment.lightCount == 64);
+    CHECK(demo.environment.shadow.method == ShadowMethod::map);
+    CHECK(demo.lights.empty());
 }
 
 }  // namespace

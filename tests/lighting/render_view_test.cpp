@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "lighting/lit_points.h"
 #include "lighting/shading_passes.h"
 #include "numeric/fp_environment.h"
 #include "tests/support/box_scene.h"
@@ -291,7 +292,7 @@ TEST_CASE("FlushingSubnormalsChangesNoBitOfTheShading") {
     {
         const FlushToZeroScope flush;
         ShadeStatistics statistics;
-        shadingPasses(profile.fragment).makeTileShader(job)->run({0, 0, 64, 64}, flushed, statistics);
+        shadingPasses(profile.fragment).makeTileShader(job)->run(0, {0, 0, 64, 64}, flushed, statistics);
     }
     for (size_t o = 0; o < kShadeOutputs; o++) CHECK(flushed.images[o] == kept.images[o]);
 }
@@ -514,5 +515,52 @@ TEST_CASE("WiderFormatsAreCloserToTheTruth") {
         MESSAGE(std::string(profile) << ": mean error " << sum / (24 * 24 * 3));
         CHECK(sum < previous / 4);
         previous = sum;
+    }
+}
+
+// What shading asks about is what the images of normals and distances show.
+TEST_CASE("LitPointsAreThoseOfTheImages") {
+    const SurfaceScene scene = test::box(2, 3, 4);
+    for (const char* name : {"f32", "f64", "fp16"}) {
+        const Profile& profile = *findProfile(name);
+        const auto placed = placeMeshes(scene, profile.vertex, 1);
+        PinholeCamera camera;
+        camera.width = 70;
+        camera.height = 40;
+        camera.fx = camera.fy = 30;
+        camera.cx = 35;
+        camera.cy = 20;
+        camera.position = {0.5, 3.5, 1};
+        const View view = cameraView(camera);
+        const VisibleScene visible = findVisible(scene, placed, view, profile, 1, {});
+        ShadeJob job = shadeJobOf(visible, scene, placed, view, profile, {});
+        job.tileSize = 16;
+        job.request = requestOf({ShadeOutput::normals, ShadeOutput::distance});
+        const ShadedImages images = shade(job);
+        const LitPoints points = litPointsOf(job);
+        size_t covered = 0;
+        for (const float d : images[ShadeOutput::distance].values()) covered += std::isfinite(d) ? 1 : 0;
+        CHECK(points.size() == covered);
+        CHECK(covered > 0);
+        CHECK(covered < images[ShadeOutput::distance].pixelCount());
+        for (size_t i = 0; i < points.size(); i++) {
+            const int x = static_cast<int>(points.x_px[i]), y = static_cast<int>(points.y_px[i]);
+            double squared = 0;
+            for (int c = 0; c < 3; c++) {
+                const auto k = static_cast<size_t>(c);
+                CHECK(static_cast<float>(points.normal[k][i]) == images[ShadeOutput::normals].at(x, y, c));
+                CHECK(std::fabs(points.faceNormal[k][i] - points.normal[k][i]) < 1e-3);
+                const double d = points.position_m[k][i] - camera.position[c];
+                squared += d * d;
+            }
+            CHECK(std::sqrt(squared) ==
+                  doctest::Approx(images[ShadeOutput::distance].at(x, y)).epsilon(2e-3));
+            const uint32_t id = visible.target.id.at(x, y);
+            CHECK(points.instance[i] == visible.instanceOfDraw[visible.target.triangles[id].draw]);
+        }
+        const LitPoints left =
+            litPointsOf(job, [](const LitPoints& all, size_t i) { return all.x_px[i] < 35; });
+        CHECK(left.size() > 0);
+        for (const uint32_t x : left.x_px) CHECK(x < 35);
     }
 }

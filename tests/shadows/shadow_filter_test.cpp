@@ -5,6 +5,7 @@
 #include <set>
 
 #include "numeric/isa.h"
+#include "numeric/random.h"
 #include "shadows/shadow_pattern.h"
 #include "tests/shadows/shadow_scene.h"
 
@@ -77,6 +78,51 @@ TEST_CASE("PercentageCloserFilteringComparesFirstAndWeightsAfter") {
         CHECK(worst < 1e-12);
         CHECK(values.size() > 20);
     }
+}
+
+// Points on and off the ground, some at places or with normals that are not numbers, in every profile and
+// kind of map.
+TEST_CASE("RangesOfTexelsDecideWindowsToTheBit") {
+    const SurfaceScene scene = confetti();
+    LitPoints points = gridOn(0, -3, 3, 50);
+    Random random(5);
+    for (size_t i = 0; i < points.size(); i++) {
+        if (random.chance(0.5)) points.position_m[1][i] = random.uniform(-0.2, 1);
+        if (random.chance(0.3))
+            for (auto& component : points.faceNormal) component[i] = random.uniform(-1, 1);
+        if (random.chance(0.02)) points.position_m[static_cast<size_t>(random.integer(0, 2))][i] = NAN;
+        if (random.chance(0.05))
+            points.faceNormal[static_cast<size_t>(random.integer(0, 2))][i] =
+                random.pick({double(NAN), double(INFINITY), 0.0, 1e-30});
+    }
+    SurfaceLight lamp;
+    lamp.kind = LightKind::point;
+    lamp.position_m = {0.3, 2, 0.2};
+    lamp.intensity = glm::dvec3(1);
+    for (const std::string_view profile : profileNames())
+        for (const SurfaceLight& light : {sun({0.4, 1, 0.3}), lamp})
+            for (const ShadowDepth depth : {ShadowDepth::d16, ShadowDepth::d32f, ShadowDepth::linear})
+                for (const int taps : {1, 4, 7}) {
+                    MapRequest request;
+                    const std::string name(profile);
+                    request.profile = name.c_str();
+                    request.settings.size = 64;
+                    request.settings.depth = depth;
+                    request.settings.taps = taps;
+                    request.settings.receiverPlane = taps != 1;
+                    const ShadowMap map = mapOf(scene, light, request);
+                    size_t partly = 0, different = 0;
+                    const auto expected = lookUp(map, points, request.profile, WindowSearch::everyTexel),
+                               actual = lookUp(map, points, request.profile);
+                    for (size_t i = 0; i < points.size(); i++) {
+                        different += actual[i] != expected[i];
+                        partly += expected[i] > 0 && expected[i] < 1;
+                    }
+                    CAPTURE(name);
+                    CAPTURE(taps);
+                    CHECK(different == 0);
+                    CHECK(partly > 0);
+                }
 }
 
 TEST_CASE("WeightsHaveTheProfilesFractionBits") {
@@ -253,7 +299,9 @@ TEST_CASE("ShadowThreadsAndLevelsChangeNoBit") {
                             renderShadowMap(scene, placed, bulb({0.3, 2, 0.2}), {}, settings, profile,
                                             {threads, threads == 1 ? 64 : 16, false});
                         std::vector<double> visibility(points.size());
-                        lookupPasses(profile.fragment).makeLookup(map, 8, threads)->find(points, visibility);
+                        lookupPasses(profile.fragment)
+                            .makeLookup(map, 8, threads, WindowSearch::ranges)
+                            ->find(points, visibility);
                         all.push_back(visibility);
                     }
                 }

@@ -72,10 +72,13 @@ struct MapRequest {
 };
 
 inline std::vector<double> lookUp(const ShadowMap& map, const LitPoints& points,
-                                  const char* profileName = "f32") {
+                                  const char* profileName = "f32",
+                                  WindowSearch search = WindowSearch::ranges) {
     const Profile& profile = *findProfile(profileName);
     std::vector<double> visibility(points.size());
-    lookupPasses(profile.fragment).makeLookup(map, profile.textureFractionBits, 1)->find(points, visibility);
+    lookupPasses(profile.fragment)
+        .makeLookup(map, profile.textureFractionBits, 1, search)
+        ->find(points, visibility);
     return visibility;
 }
 

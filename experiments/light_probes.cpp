@@ -1,0 +1,27 @@
+#include "experiments/light_probes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "ar/image_io.h"
+
+namespace etalon::experiments {
+
+Probe latLongProbe(Image<float> radiance) {
+    Probe probe;
+    probe.shape = {Mapping::latLong, radiance.width(), radiance.height()};
+    for (float& v : radiance.values()) v = std::max(v, 0.0f);
+    probe.radiance.push_back(std::move(radiance));
+    return probe;
+}
+
+std::vector<NamedProbe> fetchedProbes() {
+    std::vector<NamedProbe> probes;
+    for (const char* name :
+         {"city", "courtyard", "forest", "interior", "night", "studio", "sunrise", "sunset"})
+        probes.push_back({name, latLongProbe(readRgb(fmt::format("scenes/probes/{}.exr", name)))});
+    return probes;
+}
+
+}  // namespace etalon::experiments
