@@ -52,7 +52,8 @@ class ConversionWriter {
     Point pointOf(Kernel& kernel, const typename Kernel::vec3& direction) const {
         return kernel.mappingPoint(direction, sampling_.source);
     }
-    Sample sampleAt(Kernel& kernel, const Point& p) const {
+    // Texels' coordinates stay in registers: as calls, the steps of the text pass them through memory.
+    [[gnu::flatten]] Sample sampleAt(Kernel& kernel, const Point& p) const {
         return kernel.sampleProbe(radiance_, shown_, p, sampling_);
     }
     // Texels first ... first + active - 1 of a row, whose centres the source shows at middle().

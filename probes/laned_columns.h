@@ -1,6 +1,7 @@
 // The texels of an image that is computed in lanes along its rows, some rows at a time.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "numeric/number_lanes.h"
@@ -37,15 +38,17 @@ class LanedColumns {
     std::vector<T> values_;
 };
 
-// Calls body(y0, y1) for blocks of rows, from the first to behind the last one. Blocks are narrow bands of
-// the image, so that neighbouring texels of the source are used again while they are in the cache.
+// Calls body(y0, y1) for blocks of rows, from the first to behind the last one. Blocks are bands of the
+// image, so that neighbouring texels of the source are used again while they are in the cache: the higher,
+// the better, but there shall be enough of them for all threads.
 template <class F>
 void parallelForRowBlocks(int height, int threads, F&& body) {
-    constexpr int kRows = 8;
-    const int blocks = (height + kRows - 1) / kRows;
+    constexpr int kLeastRows = 8, kMostRows = 32, kBlocks = 16;
+    const int rows = std::clamp(height / kBlocks, kLeastRows, kMostRows);
+    const int blocks = (height + rows - 1) / rows;
     parallelFor(static_cast<size_t>(blocks), threads, [&](size_t block) {
-        const int y0 = static_cast<int>(block) * kRows;
-        body(y0, y0 + kRows < height ? y0 + kRows : height);
+        const int y0 = static_cast<int>(block) * rows;
+        body(y0, std::min(y0 + rows, height));
     });
 }
 

@@ -158,9 +158,10 @@ TEST_CASE("DiscSolidAnglesAreIntegralsOfTheMapping") {
                 double sum = 0;
                 bool isCut = false;
                 for (int k = 0; k < kParts * kParts; k++) {
+                    const int column = k % kParts, row = k / kParts;
                     const double scale = 2.0 / (shape.width * kParts);
-                    const double px = (x * kParts + k % kParts + 0.5) * scale - 1,
-                                 py = 1 - (y * kParts + k / kParts + 0.5) * scale;
+                    const double px = (x * kParts + column + 0.5) * scale - 1,
+                                 py = 1 - (y * kParts + row + 0.5) * scale;
                     const bool isOn = px * px + py * py < 1;
                     isCut = isCut || !isOn;
                     if (isOn) sum += scale * scale * kernel.discDensity(px, py, settings);
