@@ -1,6 +1,6 @@
 // What docs/experiments/irradiance.md says about ways to irradiance, measured. scripts/experiments runs it
 // and puts what it prints, between lines "== NAME", into the page's blocks of these names.
-//   etalon_experiment_irradiance FOLDER_OF_PICTURES
+//   etalon_experiment_irradiance FOLDER_OF_PICTURES [FOLDER_OF_PAPER_DATA]
 #include "probes/irradiance.h"
 
 #include <fmt/format.h>
@@ -133,6 +133,44 @@ void writePicture(const Probe& probe, const std::filesystem::path& path) {
     writePng(toneMap(sheet, ToneMap::filmic, -1), path);
 }
 
+// Radiance of Grace Cathedral by degree and order, red, green and blue [RamamoorthiHanrahan2001, Fig. 3]:
+// directions x to the right and y upwards in the angular map, z through its centre; no Condon-Shortley phase.
+constexpr double kGrace[9][3] = {{0.79, 0.44, 0.54},    {0.39, 0.35, 0.60},    {-0.34, -0.18, -0.27},
+                                 {-0.29, -0.06, 0.01},  {-0.11, -0.05, -0.12}, {-0.26, -0.22, -0.47},
+                                 {-0.16, -0.09, -0.15}, {0.56, 0.21, 0.14},    {0.21, -0.05, -0.30}};
+
+// The coefficients of the probe times the one factor that brings them nearest to the printed ones.
+void printGrace(const std::filesystem::path& path) {
+    Image<float> radiance = readRgb(path);
+    Probe probe;
+    probe.shape = {Mapping::angular, radiance.width(), radiance.height()};
+    probe.radiance.push_back(std::move(radiance));
+    SphericalHarmonics found = projectHarmonics(probe, 2);
+    double products = 0, squares = 0, largest = 0, worst = 0;
+    for (int l = 0; l <= 2; l++)
+        for (int m = -l; m <= l; m++) {
+            if (m % 2 != 0) found.at(l, m) *= -1.0;
+            for (int c = 0; c < 3; c++) {
+                const double printed = kGrace[harmonicIndex(l, m)][c];
+                products += found.at(l, m)[c] * printed;
+                squares += found.at(l, m)[c] * found.at(l, m)[c];
+                largest = std::max(largest, std::abs(printed));
+            }
+        }
+    const double factor = products / squares;
+    fmt::print("== grace-harmonics\n| l, m | printed | measured times {:.4f} |\n| --- | --- | --- |\n", factor);
+    for (int l = 0; l <= 2; l++)
+        for (int m = -l; m <= l; m++) {
+            const auto& printed = kGrace[harmonicIndex(l, m)];
+            const glm::dvec3 v = factor * found.at(l, m);
+            for (int c = 0; c < 3; c++) worst = std::max(worst, std::abs(v[c] - printed[c]));
+            fmt::print("| {}, {} | {:.2f} {:.2f} {:.2f} | {:.4f} {:.4f} {:.4f} |\n", l, m, printed[0], printed[1],
+                       printed[2], v.x, v.y, v.z);
+        }
+    fmt::print("\nLargest difference: {:.4f}, {:.2f} % of the largest coefficient.\n", worst,
+               100 * worst / largest);
+}
+
 int run(int argc, char** argv) {
     if (argc < 2 || argc > 3) {
         fmt::print(stderr, "usage: etalon_experiment_irradiance FOLDER_OF_PICTURES [FOLDER_OF_PAPER_DATA]\n");
@@ -141,6 +179,9 @@ int run(int argc, char** argv) {
     const std::vector<NamedProbe> probes = fetchedProbes();
     printErrors(probes);
     writePicture(probes[1].probe, std::filesystem::path(argv[1]) / "irradiance.png");
+    const std::filesystem::path grace =
+        std::filesystem::path(argc > 2 ? argv[2] : "") / "grace_angular_1000.hdr";
+    if (std::filesystem::exists(grace)) printGrace(grace);
     return 0;
 }
 
