@@ -158,14 +158,15 @@ void printGrace(const std::filesystem::path& path) {
             }
         }
     const double factor = products / squares;
-    fmt::print("== grace-harmonics\n| l, m | printed | measured times {:.4f} |\n| --- | --- | --- |\n", factor);
+    fmt::print("== grace-harmonics\n| l, m | printed | measured times {:.4f} |\n| --- | --- | --- |\n",
+               factor);
     for (int l = 0; l <= 2; l++)
         for (int m = -l; m <= l; m++) {
             const auto& printed = kGrace[harmonicIndex(l, m)];
             const glm::dvec3 v = factor * found.at(l, m);
             for (int c = 0; c < 3; c++) worst = std::max(worst, std::abs(v[c] - printed[c]));
-            fmt::print("| {}, {} | {:.2f} {:.2f} {:.2f} | {:.4f} {:.4f} {:.4f} |\n", l, m, printed[0], printed[1],
-                       printed[2], v.x, v.y, v.z);
+            fmt::print("| {}, {} | {:.2f} {:.2f} {:.2f} | {:.4f} {:.4f} {:.4f} |\n", l, m, printed[0],
+                       printed[1], printed[2], v.x, v.y, v.z);
         }
     fmt::print("\nLargest difference: {:.4f}, {:.2f} % of the largest coefficient.\n", worst,
                100 * worst / largest);
