@@ -200,6 +200,8 @@ size_t TileShaderOf<T>::bucketOf(const SurfaceMaterial& material, const CubeMap<
 template <class T>
 void TileShaderOf<T>::setUpTriangles(bool withPoints) {
     const size_t count = tile_.triangles.size();
+    // Those of other tiles go, so that the order of the buckets is the tile's own (fragmentPoints).
+    buckets_.erase(buckets_.begin() + 1, buckets_.end());
     triangles_.reset(count);
     bucketOfTriangle_.assign(count, 0);
     if (withPoints) faceNormals_.assign(count, glm::dvec3(0)), instances_.assign(count, kNoTriangle);
