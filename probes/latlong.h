@@ -97,11 +97,6 @@ CubeMap<float> cubeFromLatLong(const Image<float>& latLong, int size, const Cube
                                   [&](int x, int part) { return coordinateOf(x, part, size, parts); });
     const T weight(1.0 / (parts * parts));
 
-    // Inlined, so that coordinates stay in registers.
-    const auto sampleAt = [&](Kernel & kernel, const vec3& direction) __attribute__((flatten)) {
-        return kernel.sampleLatLong(texture, direction, sampling);
-    };
-
     CubeMap<float> cube(size, 3);
     parallelForRowBlocks(size, threads, [&](int y0, int y1) {
         Kernel kernel;
@@ -115,7 +110,7 @@ CubeMap<float> cubeFromLatLong(const Image<float>& latLong, int size, const Cube
                             const vec3 direction =
                                 kernel.cubeDirection(typename Kernel::integer(face), columns.at(first, i),
                                                      T(coordinateOf(y, j, size, parts)));
-                            const vec3 value = sampleAt(kernel, direction);
+                            const vec3 value = kernel.sampleLatLong(texture, direction, sampling);
                             for (int c = 0; c < 3; c++)
                                 sum[c] = i == 0 && j == 0 ? value[c] : sum[c] + value[c];
                         }
