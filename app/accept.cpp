@@ -2,6 +2,7 @@
 
 #include "app/scene_options.h"
 #include "app/verbs.h"
+#include "numeric/text.h"
 
 namespace etalon {
 namespace {
@@ -16,17 +17,17 @@ ExitCode runAccept(const AcceptOptions& options, const GoldenSupport& support) {
     const auto accepted =
         acceptGolden(manifest, options.pattern, options.reason, support.rulesVersion, support.render,
                      [&](const std::string& name, size_t index, size_t count) {
-                         progress.show(fmt::format("[{}/{}] {}", index + 1, count, name));
+                         progress.show(formatText("[{}/{}] {}", index + 1, count, name));
                      });
     progress.finish();
     if (accepted.empty()) {
-        fmt::print(stderr, "etalon: {}: nothing to check: no case matches \"{}\"\n", options.manifest,
-                   options.pattern);
+        printText(stderr, "etalon: {}: nothing to check: no case matches \"{}\"\n", options.manifest,
+                  options.pattern);
         return ExitCode::nothingToCheck;
     }
     std::string text;
     for (const GoldenAcceptance& acceptance : accepted)
-        text += fmt::format("{}: {}\n", acceptance.changed ? "accepted" : "unchanged", acceptance.name);
+        text += formatText("{}: {}\n", acceptance.changed ? "accepted" : "unchanged", acceptance.name);
     printOut(text);
     return ExitCode::done;
 }

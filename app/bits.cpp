@@ -13,6 +13,7 @@
 #include "app/verbs.h"
 #include "ar/atomic_file.h"
 #include "bitcheck/dump.h"
+#include "numeric/text.h"
 #include "numeric/parallel.h"
 #include "raster/rules.h"
 
@@ -28,7 +29,7 @@ struct BitsOptions {
 std::string readFile(const std::string& file) {
     std::ifstream stream(file, std::ios::binary);
     if (!stream || std::filesystem::is_directory(file))
-        throw InputError(fmt::format("{}: no such file, or it cannot be read", file));
+        throw InputError(formatText("{}: no such file, or it cannot be read", file));
     return {std::istreambuf_iterator<char>(stream), {}};
 }
 
@@ -41,8 +42,8 @@ std::span<const std::byte> bytesOf(const std::string& text) { return std::as_byt
 // The levels and threads of this machine.
 std::string machineText() {
     std::string text = "levels";
-    for (const IsaLevel level : usableIsaLevels()) text += fmt::format(" {}", isaName(level));
-    return text + fmt::format("; {} hardware threads", hardwareThreads());
+    for (const IsaLevel level : usableIsaLevels()) text += formatText(" {}", isaName(level));
+    return text + formatText("; {} hardware threads", hardwareThreads());
 }
 
 // What the bits are compared with.
@@ -70,10 +71,10 @@ BitDump computeAll(const std::vector<BitCase>& cases, const WaySelection& ways, 
 }
 
 std::string resultText(const BitResult& result) {
-    std::string text = fmt::format("{}: {}: ", verdictName(result.verdict), result.name);
+    std::string text = formatText("{}: {}: ", verdictName(result.verdict), result.name);
     if (result.verdict != BitVerdict::same) return text + result.message + "\n";
     return text +
-           fmt::format("{}; {} way{}\n", result.what, result.ways.size(), result.ways.size() == 1 ? "" : "s");
+           formatText("{}; {} way{}\n", result.what, result.ways.size(), result.ways.size() == 1 ? "" : "s");
 }
 
 nlohmann::ordered_json wayJson(const BitWay& way) {
@@ -107,7 +108,7 @@ std::vector<BitResult> checkAll(const BitsOptions& options, const std::vector<Bi
                                 ProgressLine& progress) {
     std::vector<BitResult> results;
     for (const BitCase& c : cases) {
-        progress.show(fmt::format("[{}/{}] {}", results.size() + 1, cases.size(), c.name));
+        progress.show(formatText("[{}/{}] {}", results.size() + 1, cases.size(), c.name));
         results.push_back(checkCase(c, waysOf(options.ways, c), expected.reference,
                                     expected.words ? &expected.words->cases : nullptr));
     }
@@ -145,8 +146,8 @@ ExitCode runAccept(const BitsOptions& options, const std::vector<BitCase>& cases
     const auto old = oldReference(options.reference);
     const bool changed = !old || old->rulesVersion != reference.rulesVersion || old->cases != reference.cases;
     if (changed) writeFileAtomically(options.reference, bytesOf(referenceText(reference)));
-    printOut(fmt::format("{}: {}: {} cases, bits {:016x}\n", changed ? "accepted" : "unchanged",
-                         options.reference, cases.size(), hashOfAll(reference.cases)));
+    printOut(formatText("{}: {}: {} cases, bits {:016x}\n", changed ? "accepted" : "unchanged",
+                        options.reference, cases.size(), hashOfAll(reference.cases)));
     return ExitCode::done;
 }
 
@@ -155,8 +156,8 @@ ExitCode runDump(const BitsOptions& options, const std::vector<BitCase>& cases) 
     const BitDump dump = computeAll(cases, options.ways, progress);
     progress.finish();
     writeFileAtomically(options.dump, encodeDump(dump));
-    printOut(fmt::format("{}: the words of {} cases, bits {:016x}\n", options.dump, cases.size(),
-                         hashOfAll(referenceOf(dump, "").cases)));
+    printOut(formatText("{}: the words of {} cases, bits {:016x}\n", options.dump, cases.size(),
+                        hashOfAll(referenceOf(dump, "").cases)));
     return ExitCode::done;
 }
 
@@ -175,16 +176,16 @@ ExitCode runCheckBits(const BitsOptions& options, const std::vector<BitCase>& ca
     }
     const uint64_t hash = hashOfAll(expected.reference.cases);
     const int rules = expected.reference.rulesVersion;
-    text += fmt::format("{} of {} cases have the bits of {} ({:016x}, rules {}) on this machine: {}\n", same,
-                        results.size(), options.against.empty() ? options.reference : options.against, hash,
-                        rules, machineText());
+    text += formatText("{} of {} cases have the bits of {} ({:016x}, rules {}) on this machine: {}\n", same,
+                       results.size(), options.against.empty() ? options.reference : options.against, hash,
+                       rules, machineText());
     if (rules != kRulesVersion)
-        text += fmt::format("the reference was made under rules {}, this program follows rules {}\n", rules,
-                            kRulesVersion);
+        text += formatText("the reference was made under rules {}, this program follows rules {}\n", rules,
+                           kRulesVersion);
     printOut(options.json ? jsonText({{"machine", machineText()},
                                       {"rules", kRulesVersion},
                                       {"reference_rules", rules},
-                                      {"reference_bits", fmt::format("{:016x}", hash)},
+                                      {"reference_bits", formatText("{:016x}", hash)},
                                       {"checked", results.size()},
                                       {"same", same},
                                       {"results", list}})
@@ -196,7 +197,7 @@ ExitCode runBits(const BitsOptions& options, const std::vector<BitCase>& allCase
     std::vector<BitCase> cases = allCases;
     std::erase_if(cases, [&](const BitCase& c) { return !matches(options.pattern, c.name); });
     if (cases.empty()) {
-        fmt::print(stderr, "etalon: nothing to check: no case matches \"{}\"\n", options.pattern);
+        printText(stderr, "etalon: nothing to check: no case matches \"{}\"\n", options.pattern);
         return ExitCode::nothingToCheck;
     }
     if (options.accept) return runAccept(options, cases);

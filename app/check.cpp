@@ -3,6 +3,7 @@
 #include "app/report.h"
 #include "app/scene_options.h"
 #include "app/verbs.h"
+#include "numeric/text.h"
 
 namespace etalon {
 namespace {
@@ -13,7 +14,7 @@ struct CheckOptions {
 };
 
 std::string resultText(const GoldenManifest& manifest, const GoldenResult& result) {
-    std::string text = fmt::format("{}: {}", verdictName(result.verdict), result.name);
+    std::string text = formatText("{}: {}", verdictName(result.verdict), result.name);
     if (!result.message.empty()) text += ": " + result.message;
     text += '\n';
     if (result.comparison)
@@ -34,7 +35,7 @@ ExitCode runCheck(const CheckOptions& options, const GoldenSupport& support) {
     ProgressLine progress;
     const auto results = checkGolden(manifest, options.pattern, support.rulesVersion, support.render,
                                      [&](const std::string& name, size_t index, size_t count) {
-                                         progress.show(fmt::format("[{}/{}] {}", index + 1, count, name));
+                                         progress.show(formatText("[{}/{}] {}", index + 1, count, name));
                                      });
     progress.finish();
     size_t same = 0;
@@ -47,12 +48,12 @@ ExitCode runCheck(const CheckOptions& options, const GoldenSupport& support) {
         text += resultText(manifest, result);
         list.push_back(resultJson(result));
     }
-    text += fmt::format("{} of {} golden images are the same\n", same, results.size());
+    text += formatText("{} of {} golden images are the same\n", same, results.size());
     printOut(options.json ? jsonText({{"checked", results.size()}, {"same", same}, {"results", list}})
                           : text);
     if (results.empty()) {
-        fmt::print(stderr, "etalon: {}: nothing to check: no case matches \"{}\"\n", options.manifest,
-                   options.pattern);
+        printText(stderr, "etalon: {}: nothing to check: no case matches \"{}\"\n", options.manifest,
+                  options.pattern);
         return ExitCode::nothingToCheck;
     }
     if (failed) return ExitCode::badInput;

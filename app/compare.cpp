@@ -5,6 +5,7 @@
 #include "app/report.h"
 #include "app/verbs.h"
 #include "ar/image_io.h"
+#include "numeric/text.h"
 
 namespace etalon {
 namespace {
@@ -18,12 +19,12 @@ struct CompareOptions {
 // The error image must not replace what was compared.
 void checkErrorPath(const CompareOptions& options) {
     if (std::filesystem::path(options.errorImage).extension() != ".exr")
-        throw InputError(fmt::format("{}: the error image is an EXR file; name it .exr", options.errorImage));
+        throw InputError(formatText("{}: the error image is an EXR file; name it .exr", options.errorImage));
     for (const std::string& input : {options.a, options.b}) {
         std::error_code error;
         if (std::filesystem::equivalent(options.errorImage, input, error))
             throw InputError(
-                fmt::format("{}: the error image would replace a compared image", options.errorImage));
+                formatText("{}: the error image would replace a compared image", options.errorImage));
     }
 }
 
@@ -36,8 +37,8 @@ ExitCode runCompare(const CompareOptions& options) {
     printOut(options.json ? jsonText(comparisonJson(comparison))
                           : comparisonText(comparison, options.a, options.b));
     if (wantsError && comparison.channels.empty())
-        fmt::print(stderr, "etalon: {}: not written: the images share no channel of one size and type\n",
-                   options.errorImage);
+        printText(stderr, "etalon: {}: not written: the images share no channel of one size and type\n",
+                  options.errorImage);
     return (options.bits ? comparison.identical() : comparison.equal()) ? ExitCode::done
                                                                         : ExitCode::difference;
 }

@@ -7,6 +7,7 @@
 #include "ar/image_io.h"
 #include "ar/transform.h"
 #include "probes/convert.h"
+#include "numeric/text.h"
 
 namespace etalon {
 namespace {
@@ -38,14 +39,14 @@ ProbeShape shapeOf(const ProbeConvertVerb& verb, const Probe& source) {
     if (verb.height > 0) shape.height = verb.height;
     if (!isLatLong(shape.mapping) && shape.height != shape.width)
         throw InputError(
-            fmt::format("--height {}: images of the mapping {} are square", shape.height, verb.to));
+            formatText("--height {}: images of the mapping {} are square", shape.height, verb.to));
     shape.ballDistance_radii = verb.toBallDistance_radii;
     return shape;
 }
 
 ExitCode runProbeConvert(const ProbeConvertVerb& verb) {
     if (std::filesystem::path(verb.output).extension() != ".exr")
-        throw InputError(fmt::format("{}: probes are written as EXR files; name it .exr", verb.output));
+        throw InputError(formatText("{}: probes are written as EXR files; name it .exr", verb.output));
     AtomicFile file(verb.output);
     const Probe source = verb.input.load();
     ProbeConversion conversion;

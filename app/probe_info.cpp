@@ -7,6 +7,7 @@
 #include "app/verbs.h"
 #include "probes/irradiance.h"
 #include "probes/probe_statistics.h"
+#include "numeric/text.h"
 
 namespace etalon {
 namespace {
@@ -24,7 +25,7 @@ nlohmann::ordered_json numberOf(double value) {
     return value;
 }
 nlohmann::ordered_json jsonOf(const glm::dvec3& v) { return {numberOf(v.x), numberOf(v.y), numberOf(v.z)}; }
-std::string textOf(const glm::dvec3& v) { return fmt::format("{:.6g} {:.6g} {:.6g}", v.x, v.y, v.z); }
+std::string textOf(const glm::dvec3& v) { return formatText("{:.6g} {:.6g} {:.6g}", v.x, v.y, v.z); }
 
 constexpr const char* kAxisNames[] = {"+x", "-x", "+y", "-y", "+z", "-z"};
 
@@ -57,16 +58,16 @@ ExitCode runProbeInfo(const ProbeInfoVerb& verb) {
         return ExitCode::done;
     }
     std::string text =
-        fmt::format("{}: {} {}x{}{}{}\n", verb.input.file, mapping, probe.shape.width, probe.shape.height,
-                    probe.distance_m.empty() ? "" : ", distances", probe.valid.empty() ? "" : ", valid");
-    text += fmt::format(
+        formatText("{}: {} {}x{}{}{}\n", verb.input.file, mapping, probe.shape.width, probe.shape.height,
+                   probe.distance_m.empty() ? "" : ", distances", probe.valid.empty() ? "" : ", valid");
+    text += formatText(
         "radiance       {:.6g} to {:.6g}, {:.1f} stops between the smallest above 0 and the largest\n",
         s.smallest, s.largest, s.dynamicRange_stops);
-    text += fmt::format("mean           {}  over {:.6f} sr\n", textOf(s.mean), s.solidAngle_sr);
-    text += fmt::format("no radiance    {} negative, {} infinite, {} NaN\n", s.negative, s.infinite,
-                        s.notANumber);
+    text += formatText("mean           {}  over {:.6f} sr\n", textOf(s.mean), s.solidAngle_sr);
+    text +=
+        formatText("no radiance    {} negative, {} infinite, {} NaN\n", s.negative, s.infinite, s.notANumber);
     for (size_t i = 0; i < axes.size(); i++)
-        text += fmt::format("irradiance {}  {}\n", kAxisNames[i], textOf(irradiance[i]));
+        text += formatText("irradiance {}  {}\n", kAxisNames[i], textOf(irradiance[i]));
     printOut(text);
     return ExitCode::done;
 }

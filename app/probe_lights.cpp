@@ -8,6 +8,7 @@
 #include "app/verbs.h"
 #include "probes/dominant_lights.h"
 #include "probes/median_cut.h"
+#include "numeric/text.h"
 
 namespace etalon {
 namespace {
@@ -39,32 +40,32 @@ nlohmann::ordered_json jsonOf(const ProbeLight& light) {
 
 std::string textOf(const ProbeLight& light) {
     const std::string position = light.position_m
-                                     ? fmt::format("  at {:.6g} {:.6g} {:.6g}", light.position_m->x,
-                                                   light.position_m->y, light.position_m->z)
+                                     ? formatText("  at {:.6g} {:.6g} {:.6g}", light.position_m->x,
+                                                  light.position_m->y, light.position_m->z)
                                      : "";
-    return fmt::format("{:9.6f} {:9.6f} {:9.6f}  {:12.6g} {:12.6g} {:12.6g}  {:10.4g}  {},{} {},{}{}",
-                       light.direction.x, light.direction.y, light.direction.z, light.energy.x,
-                       light.energy.y, light.energy.z, light.solidAngle_sr, light.region.x0, light.region.y0,
-                       light.region.x1, light.region.y1, position);
+    return formatText("{:9.6f} {:9.6f} {:9.6f}  {:12.6g} {:12.6g} {:12.6g}  {:10.4g}  {},{} {},{}{}",
+                      light.direction.x, light.direction.y, light.direction.z, light.energy.x, light.energy.y,
+                      light.energy.z, light.solidAngle_sr, light.region.x0, light.region.y0, light.region.x1,
+                      light.region.y1, position);
 }
 
 void warnUncounted(const std::string& file, size_t count) {
     if (count > 0)
-        fmt::print(stderr, "etalon: warning: {}: {} negative, infinite or NaN values count as 0\n", file,
-                   count);
+        printText(stderr, "etalon: warning: {}: {} negative, infinite or NaN values count as 0\n", file,
+                  count);
 }
 
 ExitCode runProbeLights(const ProbeLightsVerb& verb) {
     if (verb.countIsGiven && !std::has_single_bit(verb.count))
-        throw InputError(fmt::format("--count {}: not a power of two", verb.count));
+        throw InputError(formatText("--count {}: not a power of two", verb.count));
     const bool isMedianCut = verb.method == "median-cut";
     const Probe probe = verb.input.load();
     if (isMedianCut && probe.shape.mapping != Mapping::latLong)
-        throw InputError(fmt::format("{}: a {} probe; median cut needs a lat-long one", verb.input.file,
-                                     kMappingNames[static_cast<size_t>(probe.shape.mapping)]));
+        throw InputError(formatText("{}: a {} probe; median cut needs a lat-long one", verb.input.file,
+                                    kMappingNames[static_cast<size_t>(probe.shape.mapping)]));
     if (!isMedianCut && probe.shape.mapping == Mapping::cube)
         throw InputError(
-            fmt::format("{}: a cube map; dominant lights are searched in one image", verb.input.file));
+            formatText("{}: a cube map; dominant lights are searched in one image", verb.input.file));
 
     std::vector<ProbeLight> lights;
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
@@ -90,7 +91,7 @@ ExitCode runProbeLights(const ProbeLightsVerb& verb) {
             list.push_back(jsonOf(found.light));
             list.back()["peak_brightness"] = found.peakBrightness;
             list.back()["angular_radius_rad"] = found.angularRadius_rad;
-            text += fmt::format("{}  radius {:.4g} rad\n", textOf(found.light), found.angularRadius_rad);
+            text += formatText("{}  radius {:.4g} rad\n", textOf(found.light), found.angularRadius_rad);
         }
     }
     const glm::dvec3 total = totalEnergy(lights);
@@ -102,8 +103,8 @@ ExitCode runProbeLights(const ProbeLightsVerb& verb) {
                            {"total_energy", jsonOf(total)},
                            {"lights", list}}));
     } else {
-        printOut(text + fmt::format("# {} lights, energy {:.6g} {:.6g} {:.6g} W/m^2\n", lights.size(),
-                                    total.x, total.y, total.z));
+        printOut(text + formatText("# {} lights, energy {:.6g} {:.6g} {:.6g} W/m^2\n", lights.size(), total.x,
+                                   total.y, total.z));
     }
     return ExitCode::done;
 }

@@ -7,6 +7,7 @@
 #include "app/verbs.h"
 #include "probes/harmonics_layout.h"
 #include "probes/harmonics_lobes.h"
+#include "numeric/text.h"
 
 namespace etalon {
 namespace {
@@ -50,8 +51,8 @@ std::string tableOf(const SphericalHarmonics& f) {
     std::string text;
     for (int l = 0; l <= f.degree; l++)
         for (int m = -l; m <= l; m++)
-            text += fmt::format("{:2} {:3}  {:16.9g} {:16.9g} {:16.9g}\n", l, m, f.at(l, m).x, f.at(l, m).y,
-                                f.at(l, m).z);
+            text += formatText("{:2} {:3}  {:16.9g} {:16.9g} {:16.9g}\n", l, m, f.at(l, m).x, f.at(l, m).y,
+                               f.at(l, m).z);
     return text;
 }
 
@@ -60,7 +61,7 @@ ExitCode runProbeSh(const ProbeShVerb& verb) {
     SphericalHarmonics f = projectHarmonics(probe, verb.degree, verb.threads);
     for (const glm::dvec3& c : f.coefficients)
         if (!std::isfinite(c.x) || !std::isfinite(c.y) || !std::isfinite(c.z))
-            throw InputError(fmt::format("{}: NaN or infinite radiance has no harmonics", verb.input.file));
+            throw InputError(formatText("{}: NaN or infinite radiance has no harmonics", verb.input.file));
     if (verb.of == "irradiance") f = irradianceOfHarmonics(f);
     const Windowed w = windowOf(verb, f);
     const double smallest = smallestValue(w.harmonics);
@@ -79,11 +80,11 @@ ExitCode runProbeSh(const ProbeShVerb& verb) {
         printOut(jsonText(json));
     } else if (!verb.layout.empty()) {
         std::string text;
-        for (const double value : layOut(w.harmonics, layoutOf(verb))) text += fmt::format("{:.9g}\n", value);
+        for (const double value : layOut(w.harmonics, layoutOf(verb))) text += formatText("{:.9g}\n", value);
         printOut(text);
     } else {
-        printOut(fmt::format("# {} of degree {}, window {}, smallest value {:.6g}\n#  l   m  R G B\n",
-                             verb.of, verb.degree, verb.window, smallest) +
+        printOut(formatText("# {} of degree {}, window {}, smallest value {:.6g}\n#  l   m  R G B\n", verb.of,
+                            verb.degree, verb.window, smallest) +
                  tableOf(w.harmonics));
     }
     return ExitCode::done;

@@ -9,6 +9,7 @@
 #include "ar/atomic_file.h"
 #include "ar/image_io.h"
 #include "lighting/tone_map.h"
+#include "numeric/text.h"
 
 namespace etalon {
 namespace {
@@ -26,8 +27,8 @@ bool isPng(const std::filesystem::path& file) { return file.extension() == ".png
 
 void requireKnownExtension(const std::filesystem::path& file) {
     if (file.extension() != ".exr" && !isPng(file))
-        throw InputError(fmt::format("{}: unknown kind of image \"{}\"; known: .exr .png", file.string(),
-                                     file.extension().string()));
+        throw InputError(formatText("{}: unknown kind of image \"{}\"; known: .exr .png", file.string(),
+                                    file.extension().string()));
 }
 
 ToneMap toneMapOf(std::string_view name) {
@@ -51,8 +52,8 @@ ExitCode runRender(const RenderVerb& verb) {
     options.progress = [&](const std::string& pass) { progress.show(pass); };
     options.announceMemory = [](uint64_t bytes) {
         if (bytes >= kAnnouncedMemory_bytes)
-            fmt::print(stderr, "etalon: needs up to {:.1f} GiB for targets and images\n",
-                       static_cast<double>(bytes) / static_cast<double>(kAnnouncedMemory_bytes));
+            printText(stderr, "etalon: needs up to {:.1f} GiB for targets and images\n",
+                      static_cast<double>(bytes) / static_cast<double>(kAnnouncedMemory_bytes));
     };
     const auto start = std::chrono::steady_clock::now();
     const RenderResult result = renderScene(scene, options);
@@ -67,7 +68,7 @@ ExitCode runRender(const RenderVerb& verb) {
     for (const auto& file : files) file->commit();
     progress.finish();
 
-    for (const std::string& warning : result.warnings) fmt::print(stderr, "etalon: warning: {}\n", warning);
+    for (const std::string& warning : result.warnings) printText(stderr, "etalon: warning: {}\n", warning);
     if (verb.json) {
         nlohmann::ordered_json passes = nlohmann::ordered_json::array();
         for (const PlanPass& pass : result.plan.passes)
@@ -86,8 +87,8 @@ ExitCode runRender(const RenderVerb& verb) {
     } else {
         std::string text;
         for (const std::string& file : verb.files)
-            text += fmt::format("{}: {}x{} in {:.2f} s\n", file, result.frame.width, result.frame.height,
-                                seconds);
+            text +=
+                formatText("{}: {}x{} in {:.2f} s\n", file, result.frame.width, result.frame.height, seconds);
         printOut(text);
     }
     return ExitCode::done;

@@ -1,9 +1,9 @@
 #include "app/report.h"
 
-#include <fmt/ranges.h>
-
 #include <bit>
 #include <iterator>
+
+#include "numeric/text.h"
 
 namespace etalon {
 namespace {
@@ -17,25 +17,24 @@ Json numberJson(double value) {
 }
 
 std::string ulpText(uint64_t ulp) {
-    return ulp == kIncomparableUlp ? "incomparable" : fmt::format("{} ulp", ulp);
+    return ulp == kIncomparableUlp ? "incomparable" : formatText("{} ulp", ulp);
 }
 
 // "3-4" for the bucket of the distances 3 and 4.
 std::string bucketText(int bucket) {
     const uint64_t end = ulpBucketEnd(bucket), begin = bucket < 2 ? end : ulpBucketEnd(bucket - 1) + 1;
-    return begin == end ? fmt::format("{}", end) : fmt::format("{}-{}", begin, end);
+    return begin == end ? formatText("{}", end) : formatText("{}-{}", begin, end);
 }
 
 void appendChannel(std::string& text, const ChannelComparison& channel) {
-    auto out = std::back_inserter(text);
     if (channel.identical()) {
-        fmt::format_to(out, "  {}: identical\n", channel.name);
+        text += formatText("  {}: identical\n", channel.name);
         return;
     }
-    fmt::format_to(out, "  {}: {} of {} samples differ ({:.4g} %)", channel.name, channel.differing,
-                   channel.samples, 100 * channel.fractionDiffering());
+    text += formatText("  {}: {} of {} samples differ ({:.4g} %)", channel.name, channel.differing,
+                       channel.samples, 100 * channel.fractionDiffering());
     const auto count = [&](uint64_t number, const char* what) {
-        if (number > 0) fmt::format_to(out, ", {} {}", number, what);
+        if (number > 0) text += formatText(", {} {}", number, what);
     };
     count(channel.nanMismatches, "NaN in one only");
     count(channel.infinityMismatches, "infinity mismatches");
@@ -43,18 +42,18 @@ void appendChannel(std::string& text, const ChannelComparison& channel) {
     count(channel.nanPayloads, "NaN of other bits");
     text += '\n';
     if (channel.differing == 0) return;
-    fmt::format_to(
-        out, "    ulp max {} mean {:.4g}; absolute max {:.6g} mean {:.4g}; relative max {:.6g} mean {:.4g}\n",
+    text += formatText(
+        "    ulp max {} mean {:.4g}; absolute max {:.6g} mean {:.4g}; relative max {:.6g} mean {:.4g}\n",
         channel.maxUlp, channel.meanUlp, channel.maxAbsolute, channel.meanAbsolute, channel.maxRelative,
         channel.meanRelative);
-    fmt::format_to(out, "    rmse {:.6g}, bias {:.6g}\n    samples by ulp:", channel.rmse, channel.bias);
+    text += formatText("    rmse {:.6g}, bias {:.6g}\n    samples by ulp:", channel.rmse, channel.bias);
     for (int bucket = 0; bucket < kUlpBuckets; ++bucket)
         if (const uint64_t number = channel.ulpHistogram[static_cast<size_t>(bucket)]; number > 0)
-            fmt::format_to(out, "  {}: {}", bucketText(bucket), number);
+            text += formatText("  {}: {}", bucketText(bucket), number);
     text += '\n';
     for (const WorstPixel& pixel : channel.worst)
-        fmt::format_to(out, "    ({}, {}): {:.9g} against {:.9g}, {}\n", pixel.x, pixel.y, pixel.a, pixel.b,
-                       ulpText(pixel.ulp));
+        text += formatText("    ({}, {}): {:.9g} against {:.9g}, {}\n", pixel.x, pixel.y, pixel.a, pixel.b,
+                           ulpText(pixel.ulp));
 }
 
 Json channelJson(const ChannelComparison& channel) {
@@ -95,16 +94,15 @@ Json channelJson(const ChannelComparison& channel) {
 
 std::string comparisonText(const Comparison& comparison, const std::string& a, const std::string& b) {
     std::string text;
-    auto out = std::back_inserter(text);
     const char* verdict = comparison.identical() ? "identical"
                           : comparison.equal()   ? "equal in value, not in bits"
                                                  : "different";
-    fmt::format_to(out, "{}: {} against {}\n", verdict, a, b);
+    text += formatText("{}: {} against {}\n", verdict, a, b);
     if (comparison.widthA != comparison.widthB || comparison.heightA != comparison.heightB)
-        fmt::format_to(out, "  size: {}x{} against {}x{}\n", comparison.widthA, comparison.heightA,
-                       comparison.widthB, comparison.heightB);
+        text += formatText("  size: {}x{} against {}x{}\n", comparison.widthA, comparison.heightA,
+                           comparison.widthB, comparison.heightB);
     const auto list = [&](const std::vector<std::string>& names, const std::string& what) {
-        if (!names.empty()) fmt::format_to(out, "  channels {}: {}\n", what, fmt::join(names, ", "));
+        if (!names.empty()) text += formatText("  channels {}: {}\n", what, joinText(names, ", "));
     };
     list(comparison.onlyInA, "only in " + a);
     list(comparison.onlyInB, "only in " + b);

@@ -7,6 +7,7 @@
 
 #include "app/verbs.h"
 #include "ar/atomic_file.h"
+#include "numeric/text.h"
 
 namespace etalon {
 namespace {
@@ -14,7 +15,7 @@ namespace {
 ExitCode reportError(std::string text) {
     for (char& character : text)
         if (character == '\n') character = ' ';
-    fmt::print(stderr, "etalon: {}\n", text);
+    printText(stderr, "etalon: {}\n", text);
     return ExitCode::badInput;
 }
 
@@ -41,13 +42,13 @@ ExitCode runCommand(CLI::App& app, const ExitCode& exitCode, int argc, const cha
         app.exit(request);
         return std::fflush(stdout) == 0 ? ExitCode::done : reportError("cannot write to standard output");
     } catch (const CLI::ParseError& error) {
-        return reportError(fmt::format("{} (see etalon --help)", error.what()));
+        return reportError(formatText("{} (see etalon --help)", error.what()));
     } catch (const InputError& error) {
         return reportError(error.what());
     } catch (const std::bad_alloc&) {
         return reportError("out of memory");
     } catch (const std::exception& error) {
-        return reportError(fmt::format("internal error: {}", error.what()));
+        return reportError(formatText("internal error: {}", error.what()));
     }
 }
 
@@ -56,7 +57,7 @@ void printOut(const std::string& text) {
         std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
     if (!good)
         throw InputError(
-            fmt::format("standard output: cannot write: {}", std::generic_category().message(errno)));
+            formatText("standard output: cannot write: {}", std::generic_category().message(errno)));
 }
 
 ProgressLine::ProgressLine() : terminal_(isatty(STDERR_FILENO) != 0) {}
@@ -64,14 +65,14 @@ ProgressLine::ProgressLine() : terminal_(isatty(STDERR_FILENO) != 0) {}
 void ProgressLine::show(const std::string& text) {
     if (!terminal_) return;
     finish();
-    fmt::print(stderr, "{}", text);
+    printText(stderr, "{}", text);
     std::fflush(stderr);
     shown_ = true;
 }
 
 void ProgressLine::finish() {
     // Back to the first column, erase to the end of the line [ECMA-48].
-    if (shown_) fmt::print(stderr, "\r\x1b[K");
+    if (shown_) printText(stderr, "\r\x1b[K");
     shown_ = false;
 }
 

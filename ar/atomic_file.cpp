@@ -13,6 +13,7 @@
 #include <string>
 #include <system_error>
 
+#include "numeric/text.h"
 #include "numeric/check.h"
 
 namespace etalon {
@@ -50,7 +51,7 @@ extern "C" void removePendingAndExit(int signalNumber) {
 
 [[noreturn]] void throwSystemError(const std::filesystem::path& path, int error) {
     throw InputError(
-        fmt::format("{}: cannot write: {}", path.string(), std::generic_category().message(error)));
+        formatText("{}: cannot write: {}", path.string(), std::generic_category().message(error)));
 }
 
 }  // namespace
@@ -77,7 +78,7 @@ AtomicFile::AtomicFile(const std::filesystem::path& target) : given_(target), ta
     static std::atomic<unsigned> count{0};
     const std::filesystem::path folder = target_.has_parent_path() ? target_.parent_path() : ".";
     do {
-        temporary_ = folder / fmt::format(".etalon-{}-{}.tmp", getpid(), count.fetch_add(1));
+        temporary_ = folder / formatText(".etalon-{}-{}.tmp", getpid(), count.fetch_add(1));
         if (temporary_.native().size() >= PATH_MAX) throwSystemError(given_, ENAMETOOLONG);
         slot_ = claimSlot(temporary_.native());
         descriptor_ = open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);

@@ -9,6 +9,7 @@
 #include "ar/atomic_file.h"
 #include "ar/hash.h"
 #include "ar/image_io.h"
+#include "numeric/text.h"
 
 namespace etalon {
 namespace {
@@ -38,14 +39,14 @@ std::string inputDifference(const std::vector<GoldenInput>& accepted, const std:
     for (const GoldenInput& input : now) {
         const auto before = std::ranges::find(accepted, input.path, &GoldenInput::path);
         if (before == accepted.end())
-            return fmt::format("{} was not an input of the accepted render", input.path);
+            return formatText("{} was not an input of the accepted render", input.path);
         if (before->hash != input.hash)
-            return fmt::format("the input differs: {} decodes to pixels {}, accepted were {}", input.path,
-                               input.hash, before->hash);
+            return formatText("the input differs: {} decodes to pixels {}, accepted were {}", input.path,
+                              input.hash, before->hash);
     }
     for (const GoldenInput& input : accepted)
         if (std::ranges::find(now, input.path, &GoldenInput::path) == now.end())
-            return fmt::format("{} was an input of the accepted render and is none now", input.path);
+            return formatText("{} was an input of the accepted render and is none now", input.path);
     return {};
 }
 
@@ -56,16 +57,16 @@ std::string groupDifference(const std::vector<GoldenGroup>& accepted, const std:
     for (const GoldenGroup& group : accepted) {
         const auto found = std::ranges::find(now, group.name, &GoldenGroup::name);
         if (found == now.end())
-            append(fmt::format("{} is not rendered any more", group.name));
+            append(formatText("{} is not rendered any more", group.name));
         else if (found->width != group.width || found->height != group.height)
-            append(fmt::format("{} is {}x{}, accepted was {}x{}", group.name, found->width, found->height,
-                               group.width, group.height));
+            append(formatText("{} is {}x{}, accepted was {}x{}", group.name, found->width, found->height,
+                              group.width, group.height));
         else if (found->hash != group.hash)
-            append(fmt::format("{} differs ({}, accepted was {})", group.name, found->hash, group.hash));
+            append(formatText("{} differs ({}, accepted was {})", group.name, found->hash, group.hash));
     }
     for (const GoldenGroup& group : now)
         if (std::ranges::find(accepted, group.name, &GoldenGroup::name) == accepted.end())
-            append(fmt::format("{} was not accepted", group.name));
+            append(formatText("{} was not accepted", group.name));
     return text;
 }
 
@@ -78,8 +79,8 @@ std::string imageDefect(const GoldenManifest& manifest, const GoldenCase& c, std
     }
     const std::string difference = groupDifference(c.accepted->groups, hashGroups(*image));
     if (difference.empty()) return {};
-    return fmt::format("{}: the image is not the one in the manifest: {}", manifest.imageOf(c).string(),
-                       difference);
+    return formatText("{}: the image is not the one in the manifest: {}", manifest.imageOf(c).string(),
+                      difference);
 }
 
 GoldenResult checkCase(const GoldenManifest& manifest, const GoldenCase& c, const std::string& rulesVersion,
@@ -99,8 +100,8 @@ GoldenResult checkCase(const GoldenManifest& manifest, const GoldenCase& c, cons
     std::string difference = groupDifference(c.accepted->groups, hashGroups(frame));
     if (difference.empty()) return {c.name, GoldenVerdict::same, {}, {}};
     if (c.accepted->rulesVersion != rulesVersion)
-        difference += fmt::format("; accepted under rules {}, these are rules {}", c.accepted->rulesVersion,
-                                  rulesVersion);
+        difference += formatText("; accepted under rules {}, these are rules {}", c.accepted->rulesVersion,
+                                 rulesVersion);
     return {c.name, GoldenVerdict::different, difference, compareFrames(*image, frame)};
 }
 

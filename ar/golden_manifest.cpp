@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "ar/golden.h"
+#include "numeric/text.h"
 
 namespace etalon {
 namespace {
@@ -27,14 +28,14 @@ struct Node {
     }
     Node child(const char* key) const {
         const Json* found = find(key);
-        if (!found) fail(fmt::format("\"{}\" is missing", key));
-        return {*found, fmt::format("{}.{}", place, key)};
+        if (!found) fail(formatText("\"{}\" is missing", key));
+        return {*found, formatText("{}.{}", place, key)};
     }
     void checkKeys(std::initializer_list<std::string_view> known) const {
         if (!json.is_object()) fail("must be an object");
         for (const auto& item : json.items())
             if (std::ranges::find(known, item.key()) == known.end())
-                fail(fmt::format("unknown key {}", Json(item.key()).dump()));
+                fail(formatText("unknown key {}", Json(item.key()).dump()));
     }
     std::string text() const {
         if (!json.is_string() || json.get_ref<const std::string&>().empty())
@@ -43,7 +44,7 @@ struct Node {
     }
     int size() const {
         if (!json.is_number_integer() || json < 1 || json > kMaxImageSize)
-            fail(fmt::format("must be an integer from 1 to {}", kMaxImageSize));
+            fail(formatText("must be an integer from 1 to {}", kMaxImageSize));
         return json.get<int>();
     }
     template <class Read>
@@ -51,7 +52,7 @@ struct Node {
         if (!json.is_array()) fail("must be a list");
         std::vector<decltype(read(*this))> values;
         for (const Json& element : json)
-            values.push_back(read(Node{element, fmt::format("{}[{}]", place, values.size())}));
+            values.push_back(read(Node{element, formatText("{}[{}]", place, values.size())}));
         return values;
     }
 };
@@ -111,7 +112,7 @@ Json jsonOf(const GoldenRecord& record) {
 GoldenManifest readManifest(const std::filesystem::path& file) {
     std::ifstream stream(file);
     if (!stream || std::filesystem::is_directory(file))
-        throw InputError(fmt::format("{}: no such file, or it cannot be read", file.string()));
+        throw InputError(formatText("{}: no such file, or it cannot be read", file.string()));
     Json json;
     try {
         json = Json::parse(stream);
@@ -120,7 +121,7 @@ GoldenManifest readManifest(const std::filesystem::path& file) {
         // in brackets; for a syntax error the rest names line and column.
         const std::string_view what = error.what();
         throw InputError(
-            fmt::format("{}: not valid JSON: {}", file.string(), what.substr(what.find(']') + 2)));
+            formatText("{}: not valid JSON: {}", file.string(), what.substr(what.find(']') + 2)));
     }
     const Node root{json, file.string()};
     root.checkKeys({"cases"});
@@ -128,7 +129,7 @@ GoldenManifest readManifest(const std::filesystem::path& file) {
     for (size_t i = 0; i < manifest.cases.size(); ++i)
         for (size_t j = 0; j < i; ++j)
             if (manifest.cases[i].name == manifest.cases[j].name)
-                root.fail(fmt::format("the case \"{}\" stands there twice", manifest.cases[i].name));
+                root.fail(formatText("the case \"{}\" stands there twice", manifest.cases[i].name));
     return manifest;
 }
 

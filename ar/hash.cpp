@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "numeric/text.h"
 #include "numeric/hash.h"
 
 namespace etalon {
@@ -30,7 +31,7 @@ std::string hashChannels(int width, int height, std::vector<const Channel*> chan
         hash.addText(std::holds_alternative<Image<float>>(channel->values) ? "float" : "uint32");
         std::visit([&](const auto& image) { addSamples(hash, image); }, channel->values);
     }
-    return fmt::format("{:016x}", hash.digest());
+    return formatText("{:016x}", hash.digest());
 }
 
 std::string hashFrame(const Frame& frame) {

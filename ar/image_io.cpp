@@ -13,12 +13,13 @@
 
 #include "ar/atomic_file.h"
 #include "ar/image_module.h"
+#include "numeric/text.h"
 
 namespace etalon {
 namespace {
 
 [[noreturn]] void fail(const std::filesystem::path& path, const std::string& reason) {
-    throw InputError(fmt::format("{}: {}", path.string(), reason));
+    throw InputError(formatText("{}: {}", path.string(), reason));
 }
 
 // The checksum of PNG chunks, byte by byte with a table [PNG, Annex D].
@@ -115,20 +116,20 @@ void checkHeader(const ImageHeader& header, const std::filesystem::path& path) {
     const int width = header.width, height = header.height;
     const size_t channels = header.channels.size();
     if (width <= 0 || height <= 0 || channels == 0)
-        fail(path, fmt::format("zero size: {}x{} with {} channels", width, height, channels));
+        fail(path, formatText("zero size: {}x{} with {} channels", width, height, channels));
     if (header.deep) fail(path, "deep and volume images are not supported");
     const double bytes = 4.0 * width * height * static_cast<double>(channels);
     if (width > kMaxImageSize || height > kMaxImageSize || bytes > static_cast<double>(kMaxFrameBytes))
         fail(path,
-             fmt::format("{}x{} with {} channels would need {:.1f} GiB of memory; the limit is {} GiB and "
-                         "{} pixels a side",
-                         width, height, channels, bytes * 0x1p-30, kMaxFrameBytes >> 30, kMaxImageSize));
+             formatText("{}x{} with {} channels would need {:.1f} GiB of memory; the limit is {} GiB and "
+                        "{} pixels a side",
+                        width, height, channels, bytes * 0x1p-30, kMaxFrameBytes >> 30, kMaxImageSize));
     if (header.orientation != 1)
         fail(path,
-             fmt::format("orientation {} is not supported; the top row must come first", header.orientation));
+             formatText("orientation {} is not supported; the top row must come first", header.orientation));
     for (const StoredChannel& channel : header.channels)
         if (channel.type == SampleType::other)
-            fail(path, fmt::format(
+            fail(path, formatText(
                            "channel {} holds {} samples; only float, half, uint8, uint16 and uint32 are read",
                            channel.name, channel.typeName));
 }
@@ -175,7 +176,7 @@ Frame readWhole(const std::filesystem::path& path) {
     const std::byte* samples = stored.samples.data();
     for (const StoredChannel& channel : header.channels) {
         if (frame.find(channel.name) != nullptr || channel.name.empty())
-            fail(path, fmt::format("channel name \"{}\" is empty or used twice", channel.name));
+            fail(path, formatText("channel name \"{}\" is empty or used twice", channel.name));
         if (channel.type == SampleType::uint32)
             frame.channels.push_back({channel.name, unpackPlane<uint32_t>(stored, samples, channel.type)});
         else
@@ -212,8 +213,7 @@ Image<float> rgbOf(const Frame& frame, const std::filesystem::path& path) {
     for (int c = 0; c < 3; ++c) {
         const Channel& source = *sources[static_cast<size_t>(c)];
         const auto* image = std::get_if<Image<float>>(&source.values);
-        if (!image)
-            fail(path, fmt::format("channel {} holds identifiers (uint32), not colours", source.name));
+        if (!image) fail(path, formatText("channel {} holds identifiers (uint32), not colours", source.name));
         std::ranges::copy(image->values(), rgb.plane(c).begin());
     }
     return rgb;

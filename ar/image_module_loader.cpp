@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "ar/image_module.h"
+#include "numeric/text.h"
 #include "numeric/check.h"
 
 namespace etalon {
@@ -57,13 +58,13 @@ const ImageModule& loadImageModule() {
         path = folders[i] / kImageModuleFile;
     if (!std::filesystem::exists(path, ignored)) {
         path = folders[0] / kImageModuleFile;
-        throw InputError(fmt::format(
+        throw InputError(formatText(
             "{}: no such module; images cannot be read or PNG files written without it", path.string()));
     }
     // Never closed: its libraries register what runs at the end of the process.
     void* const handle = dlopen(path.c_str(), RTLD_LAZY | RTLD_LOCAL);
     void* const entry = handle != nullptr ? dlsym(handle, kImageModuleEntry) : nullptr;
-    if (entry == nullptr) throw InputError(fmt::format("{}: cannot be loaded: {}", path.string(), dlerror()));
+    if (entry == nullptr) throw InputError(formatText("{}: cannot be loaded: {}", path.string(), dlerror()));
     return *reinterpret_cast<ImageModuleEntry*>(entry)();
 }
 

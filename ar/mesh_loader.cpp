@@ -2,7 +2,6 @@
 
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
-#include <fmt/format.h>
 #include <assimp/DefaultLogger.hpp>
 #include <assimp/Importer.hpp>
 #include <assimp/Logger.hpp>
@@ -19,6 +18,7 @@
 #include "ar/mesh_normals.h"
 #include "ar/ply_check.h"
 #include "ar/transform.h"
+#include "numeric/text.h"
 #include "numeric/check.h"
 
 namespace etalon {
@@ -73,7 +73,7 @@ class MeshReader {
         }
         if (loaded_.mesh.indices.empty()) fail("has no triangles");
         if (notFinite_ > 0)
-            fail(fmt::format("{} of {} vertices are not finite", notFinite_, loaded_.mesh.positions.size()));
+            fail(formatText("{} of {} vertices are not finite", notFinite_, loaded_.mesh.positions.size()));
         MeshReport& report = loaded_.report;
         report.computedNormals =
             static_cast<size_t>(std::count(missingNormal_.begin(), missingNormal_.end(), uint8_t{1}));
@@ -84,7 +84,7 @@ class MeshReader {
     }
 
     [[noreturn]] void fail(const std::string& reason) const {
-        throw InputError(fmt::format("{}{}: {}", prefix_, path_.string(), reason));
+        throw InputError(formatText("{}{}: {}", prefix_, path_.string(), reason));
     }
 
   private:
@@ -104,8 +104,8 @@ class MeshReader {
         const double needed = static_cast<double>(bytes) * format->memoryPerByte;
         const double available = availableMemory();
         if (available > 0 && needed > available)
-            fail(fmt::format("would need about {:.1f} GiB of memory to load; {:.1f} GiB are available",
-                             needed / kGiB, available / kGiB));
+            fail(formatText("would need about {:.1f} GiB of memory to load; {:.1f} GiB are available",
+                            needed / kGiB, available / kGiB));
         if (extension == ".ply") {
             std::ifstream stream(path_, std::ios::binary);
             if (!stream) fail("cannot be read");
@@ -143,7 +143,7 @@ class MeshReader {
             std::string reason = importer.GetErrorString();
             if (reason.find("bad_alloc") != std::string::npos) throw std::bad_alloc();
             std::replace(reason.begin(), reason.end(), '\n', ' ');
-            fail(fmt::format("cannot be read as {}: {}", lowerExtension().substr(1), reason));
+            fail(formatText("cannot be read as {}: {}", lowerExtension().substr(1), reason));
         }
         if (warnings.find("out-of-range indices") != std::string::npos) fail("an index is out of range");
         // Depth first, children in the order of the file.
@@ -184,8 +184,8 @@ class MeshReader {
             for (const unsigned corner : {0u, mirrored ? 2u : 1u, mirrored ? 1u : 2u}) {
                 const unsigned index = face.mIndices[corner];
                 if (index >= from.mNumVertices)
-                    fail(fmt::format("index {} of face {} is out of range: there are {} vertices",
-                                     static_cast<int32_t>(index), i, from.mNumVertices));
+                    fail(formatText("index {} of face {} is out of range: there are {} vertices",
+                                    static_cast<int32_t>(index), i, from.mNumVertices));
                 to.indices.push_back(static_cast<uint32_t>(first + index));
             }
         }
@@ -234,7 +234,7 @@ LoadedMesh loadMesh(const std::filesystem::path& path, const std::string& refere
 std::vector<std::string> meshWarnings(const std::filesystem::path& path, const MeshReport& report) {
     std::vector<std::string> warnings;
     const auto add = [&](size_t count, const char* what) {
-        if (count > 0) warnings.push_back(fmt::format("{}: {} {}", path.string(), count, what));
+        if (count > 0) warnings.push_back(formatText("{}: {} {}", path.string(), count, what));
     };
     add(report.zeroAreaTriangles, "triangles of zero area draw nothing");
     add(report.skippedPrimitives, "points and lines are left out");

@@ -1,10 +1,9 @@
 #include "ar/plan.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "probes/dominant_lights.h"
+#include "numeric/text.h"
 
 namespace etalon {
 namespace {
@@ -62,7 +61,7 @@ class Planner {
         if (objects_.empty())
             add("geometry", false, "the scene has no meshes and no planes");
         else
-            add("geometry", true, fmt::format("{} objects to place", objects_.size()));
+            add("geometry", true, formatText("{} objects to place", objects_.size()));
         if (!objects_.empty()) needs.push_back("geometry");
         add("visibility", true, "every output is of what is visible", needs);
         plan_.depth = asked("depth");
@@ -89,8 +88,8 @@ class Planner {
         const auto isGlossy = [](const Material& m) { return m.kind == MaterialKind::blinnPhong; };
         const auto isMirror = [](const Material& m) { return hasMirrorPart(m); };
         const auto missing = [&](auto&& has, std::string_view what) -> std::string {
-            if (!any(has)) return fmt::format("no {} in the scene", what);
-            if (!anyVisible(has)) return fmt::format("no {} is visible", what);
+            if (!any(has)) return formatText("no {} in the scene", what);
+            if (!anyVisible(has)) return formatText("no {} is visible", what);
             return {};
         };
         switch (component) {
@@ -169,8 +168,8 @@ class Planner {
             plan_.environmentLight && !environmentHasLights() && (runs("diffuse") || anyCube());
         plan_.occlusion = runs("ambient") || environment || (anyCube() && isFinitePositive(scene_.ambient));
         add("ambient occlusion", plan_.occlusion,
-            plan_.occlusion ? fmt::format("surfaces see their surroundings from {} directions",
-                                          scene_.render.occlusionDirections)
+            plan_.occlusion ? formatText("surfaces see their surroundings from {} directions",
+                                         scene_.render.occlusionDirections)
                             : "nothing that runs is lit from everywhere",
             {"geometry", "visibility"});
         if (!plan_.occlusion) return;
@@ -189,7 +188,7 @@ class Planner {
             if (light.shadow.method == ShadowMethod::none) continue;
             const bool isBlack =
                 !isFinitePositive(light.kind == LightKind::directional ? light.irradiance : light.intensity);
-            planShadow({fmt::format("light{}", l), &light.shadow, l}, isBlack, "");
+            planShadow({formatText("light{}", l), &light.shadow, l}, isBlack, "");
         }
         const Environment& environment = scene_.environment;
         if (environment.shadow.method == ShadowMethod::none) return;
@@ -204,16 +203,16 @@ class Planner {
                 environment.shadowShare > 0 ? "no light has so large a share of its energy"
                                             : "it has no lights");
         for (const EnvironmentCaster& caster : *facts_->environmentCasters)
-            planShadow({fmt::format("environment light {}", caster.light), &environment.shadow,
-                        count + caster.light},
-                       false,
-                       fmt::format("region of {:.3g} sr, {:.3g} % of the energy; ", caster.solidAngle_sr,
-                                   100 * caster.share));
+            planShadow(
+                {formatText("environment light {}", caster.light), &environment.shadow, count + caster.light},
+                false,
+                formatText("region of {:.3g} sr, {:.3g} % of the energy; ", caster.solidAngle_sr,
+                           100 * caster.share));
     }
     void planShadow(PlanShadow shadow, bool isBlack, const std::string& why) {
         constexpr std::string_view kNames[] = {"", "shadow map", "shadow volumes", "planar shadows"};
         const std::string name =
-            fmt::format("{} of {}", kNames[static_cast<size_t>(shadow.shadow->method)], shadow.light);
+            formatText("{} of {}", kNames[static_cast<size_t>(shadow.shadow->method)], shadow.light);
         const std::string nothing = isBlack ? "the light is black" : whyNoShadow(*shadow.shadow);
         shadow.runs = nothing.empty();
         add(name, shadow.runs, why + (shadow.runs ? shadowText(*shadow.shadow) : nothing), {"geometry"});
@@ -244,7 +243,7 @@ class Planner {
         std::string text = shadow.method == ShadowMethod::planar ? "fall on " : "cast by ";
         for (size_t i = 0; i < std::min(found->size(), kNamed); i++)
             text += (i > 0 ? ", " : "") + objects_[(*found)[i]].name;
-        return found->size() > kNamed ? fmt::format("{} and {} more", text, found->size() - kNamed) : text;
+        return found->size() > kNamed ? formatText("{} and {} more", text, found->size() - kNamed) : text;
     }
 
     bool anyCube() const {
@@ -279,8 +278,8 @@ class Planner {
         if (environmentLights()) {
             add("environment light", plan_.environmentLight,
                 plan_.environmentLight
-                    ? fmt::format("surfaces are lit by the environment: {}",
-                                  kEnvironmentLightMethods[static_cast<size_t>(scene_.environment.lighting)])
+                    ? formatText("surfaces are lit by the environment: {}",
+                                 kEnvironmentLightMethods[static_cast<size_t>(scene_.environment.lighting)])
                     : "neither diffuse nor specular runs",
                 isFile ? std::vector<std::string>{"environment image"} : std::vector<std::string>{});
             for (const char* component : {"diffuse", "specular"})
@@ -399,7 +398,7 @@ std::vector<PlanObject> planObjects(const Scene& scene) {
         const MeshObject& mesh = scene.meshes[m];
         for (size_t p = 0; p < mesh.objectToWorld.size(); p++) {
             const std::string name =
-                mesh.objectToWorld.size() == 1 ? mesh.name : fmt::format("{}[{}]", mesh.name, p);
+                mesh.objectToWorld.size() == 1 ? mesh.name : formatText("{}[{}]", mesh.name, p);
             objects.push_back({name, true, m, p, &scene.materials[mesh.material]});
         }
     }

@@ -1,11 +1,11 @@
 // The plan as text, JSON and a graph.
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "ar/plan.h"
 #include "ar/toml_reader.h"
+#include "numeric/text.h"
 
 namespace etalon {
 
@@ -14,10 +14,10 @@ std::string planText(const Plan& plan) {
     for (const PlanPass& pass : plan.passes) widest = std::max(widest, printable(pass.name).size());
     std::string text;
     for (const PlanPass& pass : plan.passes)
-        text += fmt::format("{}  {:<{}}  {}\n", pass.runs ? "run " : "skip", printable(pass.name), widest,
-                            pass.reason);
-    text += fmt::format("memory: {:.1f} MiB at most for targets and images\n",
-                        static_cast<double>(plan.memory_bytes) / (1 << 20));
+        text += formatText("{}  {:<{}}  {}\n", pass.runs ? "run " : "skip", printable(pass.name), widest,
+                           pass.reason);
+    text += formatText("memory: {:.1f} MiB at most for targets and images\n",
+                       static_cast<double>(plan.memory_bytes) / (1 << 20));
     return text;
 }
 
@@ -41,12 +41,12 @@ std::string planDot(const Plan& plan) {
     };
     std::string text = "digraph plan {\n  rankdir=LR;\n  node [shape=box];\n";
     for (const PlanPass& pass : plan.passes)
-        text += fmt::format("  {} [tooltip={}{}];\n", quoted(pass.name), quoted(pass.reason),
-                            pass.runs ? "" : ", style=dashed, fontcolor=gray50");
+        text += formatText("  {} [tooltip={}{}];\n", quoted(pass.name), quoted(pass.reason),
+                           pass.runs ? "" : ", style=dashed, fontcolor=gray50");
     for (const PlanPass& pass : plan.passes)
         for (const std::string& need : pass.needs)
-            text += fmt::format("  {} -> {}{};\n", quoted(need), quoted(pass.name),
-                                pass.runs ? "" : " [style=dashed, color=gray50]");
+            text += formatText("  {} -> {}{};\n", quoted(need), quoted(pass.name),
+                               pass.runs ? "" : " [style=dashed, color=gray50]");
     return text + "}\n";
 }
 

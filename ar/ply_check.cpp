@@ -1,11 +1,11 @@
 #include "ar/ply_check.h"
 
-#include <fmt/format.h>
-
 #include <charconv>
 #include <cstdint>
 #include <optional>
 #include <vector>
+
+#include "numeric/text.h"
 
 namespace etalon {
 
@@ -123,8 +123,8 @@ std::string parseHeader(std::string_view text, Header& header) {
 }
 
 std::string cutOff(const Element& element, uint64_t index) {
-    return fmt::format("is cut off: {} '{}' elements announced, the data end in number {}", element.count,
-                       element.name, index + 1);
+    return formatText("is cut off: {} '{}' elements announced, the data end in number {}", element.count,
+                      element.name, index + 1);
 }
 
 // The mesh library ends the program for some faces of fewer corners.
@@ -133,7 +133,7 @@ bool isTooShortFace(const Element& element, const Property& property, uint64_t l
     return element.name == "face" && property.name.starts_with("vertex_ind") && length < kFewestCorners;
 }
 std::string tooShortFace(uint64_t index, uint64_t length) {
-    return fmt::format("face {} has {} corners, not at least {}", index, length, kFewestCorners);
+    return formatText("face {} has {} corners, not at least {}", index, length, kFewestCorners);
 }
 
 // Length of a list in a binary file; signed lengths below zero come out huge and fail the size check.
@@ -183,8 +183,7 @@ std::string asciiDefect(std::string_view body, const Header& header) {
                 uint64_t count = 1;
                 if (property.countSize > 0) {
                     const auto length = parseCount(word);
-                    if (!length)
-                        return fmt::format("'{}' element {} has no list length", element.name, i + 1);
+                    if (!length) return formatText("'{}' element {} has no list length", element.name, i + 1);
                     word = takeWord(rest);
                     count = *length;
                     if (isTooShortFace(element, property, count)) return tooShortFace(i, count);

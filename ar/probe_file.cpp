@@ -1,7 +1,5 @@
 #include "ar/probe_file.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -9,6 +7,7 @@
 
 #include "ar/image_io.h"
 #include "probes/texel_grid.h"
+#include "numeric/text.h"
 
 namespace etalon {
 namespace {
@@ -21,7 +20,7 @@ constexpr const char* kPositionKey = "etalon.position";
 constexpr double kRotationTolerance = 1e-6;
 
 [[noreturn]] void fail(const std::filesystem::path& path, const std::string& reason) {
-    throw InputError(fmt::format("{}: {}", path.string(), reason));
+    throw InputError(formatText("{}: {}", path.string(), reason));
 }
 
 // The numbers of an attribute, between blanks.
@@ -41,7 +40,7 @@ std::vector<double> numbersOf(const std::filesystem::path& path, const std::stri
         at = next;
     }
     if (at != end || numbers.size() != count)
-        fail(path, fmt::format("attribute {} is not {} number{}", key, count, count == 1 ? "" : "s"));
+        fail(path, formatText("attribute {} is not {} number{}", key, count, count == 1 ? "" : "s"));
     return numbers;
 }
 
@@ -75,7 +74,7 @@ FileShape shapeOf(const Frame& frame, const ProbeFileOptions& options, const std
     if (!mapping) {
         if (const std::string* name = findText(frame, kMappingKey)) {
             mapping = mappingOfName(*name);
-            if (!mapping) fail(path, fmt::format("attribute {} is unknown", kMappingKey));
+            if (!mapping) fail(path, formatText("attribute {} is unknown", kMappingKey));
         }
     }
     if (!mapping) {
@@ -89,21 +88,21 @@ FileShape shapeOf(const Frame& frame, const ProbeFileOptions& options, const std
             mapping = Mapping::cube;
         else
             fail(path,
-                 fmt::format("{}x{} may be any mapping; say which (--mapping)", frame.width, frame.height));
+                 formatText("{}x{} may be any mapping; say which (--mapping)", frame.width, frame.height));
     }
     FileShape shape{*mapping};
     if (*mapping != Mapping::cube) {
         if (!isLatLong(*mapping) && frame.width != frame.height)
-            fail(path, fmt::format("{}x{} is not square, as the mapping {} is", frame.width, frame.height,
-                                   kMappingNames[static_cast<size_t>(*mapping)]));
+            fail(path, formatText("{}x{} is not square, as the mapping {} is", frame.width, frame.height,
+                                  kMappingNames[static_cast<size_t>(*mapping)]));
         return shape;
     }
     if (!byShape)
-        fail(path, fmt::format("{}x{} is no strip and no cross of cube faces", frame.width, frame.height));
+        fail(path, formatText("{}x{} is no strip and no cross of cube faces", frame.width, frame.height));
     shape.layout = options.layout.value_or(*byShape);
     const int size = frame.width / layoutSize(shape.layout, 1).width;
     if (size < 1 || layoutSize(shape.layout, size) != LayoutSize{frame.width, frame.height})
-        fail(path, fmt::format("{}x{} does not fit the layout of cube faces", frame.width, frame.height));
+        fail(path, formatText("{}x{} does not fit the layout of cube faces", frame.width, frame.height));
     return shape;
 }
 
@@ -116,7 +115,7 @@ std::vector<Image<float>> layersOf(const Image<float>& image, const FileShape& s
 
 Image<float> planeOf(const Channel& channel, const std::filesystem::path& path) {
     const auto* image = std::get_if<Image<float>>(&channel.values);
-    if (!image) fail(path, fmt::format("channel {} holds identifiers (uint32)", channel.name));
+    if (!image) fail(path, formatText("channel {} holds identifiers (uint32)", channel.name));
     return *image;
 }
 
@@ -130,14 +129,14 @@ void readPlace(Probe& probe, const Frame& frame, const std::filesystem::path& pa
                 const glm::dvec3 &u = probe.rotation[a], &v = probe.rotation[b];
                 const double product = u.x * v.x + (u.y * v.y + u.z * v.z);
                 if (!(std::fabs(product - (a == b ? 1 : 0)) <= kRotationTolerance))
-                    fail(path, fmt::format("attribute {} is no rotation", kRotationKey));
+                    fail(path, formatText("attribute {} is no rotation", kRotationKey));
             }
         const glm::dmat3& m = probe.rotation;
         const double determinant = m[0][0] * (m[1][1] * m[2][2] - m[2][1] * m[1][2]) -
                                    m[1][0] * (m[0][1] * m[2][2] - m[2][1] * m[0][2]) +
                                    m[2][0] * (m[0][1] * m[1][2] - m[1][1] * m[0][2]);
         if (determinant < 0)
-            fail(path, fmt::format("attribute {} is a reflection, no rotation", kRotationKey));
+            fail(path, formatText("attribute {} is a reflection, no rotation", kRotationKey));
     }
     if (const std::string* text = findText(frame, kPositionKey)) {
         const auto p = numbersOf(path, kPositionKey, *text, 3);
@@ -160,7 +159,7 @@ Probe loadProbe(const std::filesystem::path& path, const ProbeFileOptions& optio
             probe.shape.ballDistance_radii = numbersOf(path, kBallDistanceKey, *text, 1)[0];
         if (options.ballDistance_radii) probe.shape.ballDistance_radii = *options.ballDistance_radii;
         if (!(probe.shape.ballDistance_radii >= kLeastBallDistance_radii))
-            fail(path, fmt::format("a mirror ball seen from {} radii", probe.shape.ballDistance_radii));
+            fail(path, formatText("a mirror ball seen from {} radii", probe.shape.ballDistance_radii));
     }
     if (const Channel* channel = frame.find("distance"))
         probe.distance_m = layersOf(planeOf(*channel, path), shape);
@@ -208,11 +207,11 @@ Frame frameOfProbe(const Probe& probe, CubeLayout layout) {
     const glm::dmat3& m = probe.rotation;
     const glm::dvec3& p = probe.position_m;
     frame.metadata[kMappingKey] = kMappingNames[static_cast<size_t>(probe.shape.mapping)];
-    frame.metadata[kRotationKey] = fmt::format("{} {} {} {} {} {} {} {} {}", m[0][0], m[1][0], m[2][0],
-                                               m[0][1], m[1][1], m[2][1], m[0][2], m[1][2], m[2][2]);
-    frame.metadata[kPositionKey] = fmt::format("{} {} {}", p.x, p.y, p.z);
+    frame.metadata[kRotationKey] = formatText("{} {} {} {} {} {} {} {} {}", m[0][0], m[1][0], m[2][0],
+                                              m[0][1], m[1][1], m[2][1], m[0][2], m[1][2], m[2][2]);
+    frame.metadata[kPositionKey] = formatText("{} {} {}", p.x, p.y, p.z);
     if (probe.shape.mapping == Mapping::mirrorBall)
-        frame.metadata[kBallDistanceKey] = fmt::format("{}", probe.shape.ballDistance_radii);
+        frame.metadata[kBallDistanceKey] = formatText("{}", probe.shape.ballDistance_radii);
     // OpenEXR's attribute says that the image is in the layout of its specification.
     if (probe.shape.mapping == Mapping::latLong) frame.metadata["envmap"] = "latlong";
     if (probe.shape.mapping == Mapping::cube && layout == CubeLayout::openExrStrip)

@@ -1,6 +1,5 @@
 #include "ar/render_scene.h"
 
-#include <fmt/format.h>
 #include <unistd.h>
 
 #include "ar/environment_light.h"
@@ -11,6 +10,7 @@
 #include "raster/rules.h"
 #include "shadows/casting_lights.h"
 #include "shadows/surface_occlusion.h"
+#include "numeric/text.h"
 
 namespace etalon {
 namespace {
@@ -90,10 +90,10 @@ class SceneRenderer {
             return;
         }
         throw InputError(
-            fmt::format("{}: {}x{} pixels with {} samples{} need {:.1f} GiB, this machine has {:.1f} GiB",
-                        where(scene_, scene_.camera.line), scene_.camera.width, scene_.camera.height,
-                        scene_.render.samples, hasMaps() ? ", and the maps that they look up," : "",
-                        static_cast<double>(needed) / kGiB, static_cast<double>(present) / kGiB));
+            formatText("{}: {}x{} pixels with {} samples{} need {:.1f} GiB, this machine has {:.1f} GiB",
+                       where(scene_, scene_.camera.line), scene_.camera.width, scene_.camera.height,
+                       scene_.render.samples, hasMaps() ? ", and the maps that they look up," : "",
+                       static_cast<double>(needed) / kGiB, static_cast<double>(present) / kGiB));
     }
 
     VisibilityFacts visibilityFacts() const {

@@ -1,11 +1,10 @@
 #include "ar/scene_loader.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <map>
 
 #include "ar/scene_parts.h"
+#include "numeric/text.h"
 #include "numeric/check.h"
 #include "raster/profile.h"
 
@@ -28,11 +27,11 @@ std::vector<Material> readMaterials(const std::string& file, const TableReader& 
 void nameObjects(const TableReader& top, Scene& scene) {
     std::map<std::string, int> lines;
     const auto take = [&](std::string& name, const char* prefix, size_t index, int line) {
-        if (name.empty()) name = fmt::format("{}{}", prefix, index);
+        if (name.empty()) name = formatText("{}{}", prefix, index);
         const auto [entry, isNew] = lines.emplace(name, line);
         if (!isNew)
-            top.fail(line, fmt::format("'name': '{}' is taken by the object at line {}", printable(name),
-                                       entry->second));
+            top.fail(line, formatText("'name': '{}' is taken by the object at line {}", printable(name),
+                                      entry->second));
     };
     for (size_t i = 0; i < scene.meshes.size(); i++)
         take(scene.meshes[i].name, "mesh", i, scene.meshes[i].line);
@@ -57,10 +56,10 @@ Output readOutput(const std::string& file, const TomlValue& value) {
             if (std::find(kOutputNames.begin(), kOutputNames.end(), name) == kOutputNames.end())
                 reader.fail(
                     item.line,
-                    fmt::format("'images' in [output]: no output is called '{}'{}; there are {}",
-                                printable(name), nearestHint(name, kOutputNames), joined(kOutputNames)));
+                    formatText("'images' in [output]: no output is called '{}'{}; there are {}",
+                               printable(name), nearestHint(name, kOutputNames), joined(kOutputNames)));
             if (std::find(output.images.begin(), output.images.end(), name) != output.images.end())
-                reader.fail(item.line, fmt::format("'images' in [output] names '{}' twice", name));
+                reader.fail(item.line, formatText("'images' in [output] names '{}' twice", name));
             output.images.emplace_back(name);
         }
     } else {
@@ -79,7 +78,7 @@ Render readRender(const std::string& file, const TomlValue& value) {
     if (reader.has("samples")) {
         const int64_t samples = reader.integer("samples", 1, 16);
         if (samples != 1 && samples != 4 && samples != 16)
-            reader.failKey("samples", fmt::format("must be 1, 4 or 16, not {}", samples));
+            reader.failKey("samples", formatText("must be 1, 4 or 16, not {}", samples));
         render.samples = static_cast<int>(samples);
     }
     if (reader.has("profile")) render.profile = reader.choice("profile", profileNames());
@@ -97,7 +96,7 @@ Render readRender(const std::string& file, const TomlValue& value) {
 }
 
 std::string where(const Scene& scene, int line) {
-    return line > 0 ? fmt::format("{}:{}", scene.file.string(), line) : scene.file.string();
+    return line > 0 ? formatText("{}:{}", scene.file.string(), line) : scene.file.string();
 }
 
 Scene loadScene(const std::filesystem::path& path) {

@@ -1,8 +1,8 @@
 // The materials, meshes and planes of a scene file.
-#include <fmt/format.h>
 
 #include "ar/scene_parts.h"
 #include "ar/transform.h"
+#include "numeric/text.h"
 
 namespace etalon {
 
@@ -21,9 +21,9 @@ glm::dvec3 readScale(const TableReader& reader) {
     for (int i = 0; i < 3; i++)
         if (scale[i] > -kMinScale && scale[i] < kMinScale)
             reader.failKey("scale",
-                           fmt::format("must not be zero (magnitude in [{}, {}]): the transform would be "
-                                       "singular",
-                                       kMinScale, kMaxSceneNumber));
+                           formatText("must not be zero (magnitude in [{}, {}]): the transform would be "
+                                      "singular",
+                                      kMinScale, kMaxSceneNumber));
     return scale;
 }
 
@@ -34,8 +34,8 @@ size_t findMaterial(const TableReader& reader, const std::vector<Material>& mate
         if (materials[i].name == name) return i;
         names.push_back(materials[i].name);
     }
-    reader.failKey("material", fmt::format("is '{}', but there is no [material.{}]{}", printable(name),
-                                           printable(name), nearestHint(name, names)));
+    reader.failKey("material", formatText("is '{}', but there is no [material.{}]{}", printable(name),
+                                          printable(name), nearestHint(name, names)));
 }
 
 Checker readChecker(const TableReader& reader) {
@@ -50,7 +50,7 @@ Checker readChecker(const TableReader& reader) {
 Material readMaterial(const std::string& file, const std::string& name, const TomlValue& value) {
     constexpr std::string_view kKinds[] = {"lambert", "blinn_phong", "mirror"};
     const TableReader reader(
-        file, value, fmt::format("[material.{}]", printable(name)),
+        file, value, formatText("[material.{}]", printable(name)),
         {"kind", "diffuse", "specular", "exponent", "reflectance", "checker", "checker_size_m"});
     Material material;
     material.line = reader.line();
@@ -58,7 +58,7 @@ Material readMaterial(const std::string& file, const std::string& name, const To
     const std::string kind = reader.choice("kind", kKinds);
     const auto forbid = [&](std::initializer_list<std::string_view> keys) {
         for (const std::string_view key : keys)
-            reader.forbid(key, fmt::format("is not used by kind '{}'", kind));
+            reader.forbid(key, formatText("is not used by kind '{}'", kind));
     };
     if (kind == "mirror") {
         material.kind = MaterialKind::mirror;
@@ -116,8 +116,8 @@ MeshObject readMesh(const std::string& file, const TomlValue& value, const std::
     mesh.material = findMaterial(reader, materials);
     const Material& material = materials[mesh.material];
     if (material.checker)
-        reader.failKey("material", fmt::format("'{}' has a checker, which only planes can show",
-                                               printable(material.name)));
+        reader.failKey("material", formatText("'{}' has a checker, which only planes can show",
+                                              printable(material.name)));
 
     const glm::dmat4 own = readTransform(reader);
     if (reader.has("instances") && reader.tables("instances").empty())

@@ -1,5 +1,4 @@
 // The camera, the environment and the lights of a scene file.
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <bit>
@@ -7,6 +6,7 @@
 #include "ar/scene_parts.h"
 #include "ar/transform.h"
 #include "raster/image.h"
+#include "numeric/text.h"
 
 namespace etalon {
 
@@ -30,9 +30,9 @@ glm::dmat4 poseFromMatrix(const TableReader& reader) {
                        near(dotOf(x, y), 0) && near(dotOf(y, z), 0) && near(dotOf(z, x), 0);
     if (!rigid)
         reader.failKey("camera_to_world",
-                       fmt::format("must be a rotation and a translation: columns of length 1 "
-                                   "at right angles, to within {}",
-                                   kRigidTolerance));
+                       formatText("must be a rotation and a translation: columns of length 1 "
+                                  "at right angles, to within {}",
+                                  kRigidTolerance));
     if (determinant3(m) < 0)
         reader.failKey("camera_to_world",
                        "must be a rotation and a translation: it mirrors (determinant -1)");
@@ -44,8 +44,8 @@ glm::dmat4 poseFromTarget(const TableReader& reader) {
     const glm::dvec3 target = reader.triple("look_at", kCoordinateRange);
     const glm::dvec3 view(target.x - position.x, target.y - position.y, target.z - position.z);
     if (lengthOf(view) < kMinDirectionLength)
-        reader.failKey("look_at", fmt::format("must differ from 'position' (distance at least {} m)",
-                                              kMinDirectionLength));
+        reader.failKey("look_at", formatText("must differ from 'position' (distance at least {} m)",
+                                             kMinDirectionLength));
     const glm::dvec3 up = reader.has("up") ? reader.direction("up") : glm::dvec3(0, 1, 0);
     if (lengthOf(crossOf(unitOf(up), unitOf(view))) < kMinUpSine)
         reader.failKey("up", reader.has("up")
@@ -65,8 +65,8 @@ Intrinsics readIntrinsics(const TableReader& reader, int width, int height) {
         k.fy = height * 0.5 * half.cos / half.sin;
         if (!(k.fy >= 1 / kMaxSceneNumber && k.fy <= kMaxSceneNumber))
             reader.failKey("fov_y_deg",
-                           fmt::format("of {} makes a focal length of {} px; allowed are {} to {}", fov_deg,
-                                       k.fy, 1 / kMaxSceneNumber, kMaxSceneNumber));
+                           formatText("of {} makes a focal length of {} px; allowed are {} to {}", fov_deg,
+                                      k.fy, 1 / kMaxSceneNumber, kMaxSceneNumber));
         k.fx = k.fy;
         k.cx = width * 0.5;
         k.cy = height * 0.5;
@@ -96,7 +96,7 @@ void readLighting(const TableReader& reader, Environment& environment) {
     if (reader.has("lights")) {
         environment.lightCount = static_cast<int>(reader.integer("lights", 1, kMaxEnvironmentLights));
         if (!std::has_single_bit(static_cast<unsigned>(environment.lightCount)))
-            reader.failKey("lights", fmt::format("must be a power of two, not {}", environment.lightCount));
+            reader.failKey("lights", formatText("must be a power of two, not {}", environment.lightCount));
     }
     if (reader.has("map_size"))
         environment.mapSize = static_cast<int>(reader.integer("map_size", 1, kMaxLightMapSize));
@@ -135,7 +135,7 @@ Camera readCamera(const std::string& file, const TomlValue& value) {
     camera.far = reader.number("far", kPositiveRange);
     if (!(camera.near < camera.far))
         reader.failKey("far",
-                       fmt::format("must be greater than 'near' ({} m), not {}", camera.near, camera.far));
+                       formatText("must be greater than 'near' ({} m), not {}", camera.near, camera.far));
     camera.cameraToWorld = reader.has("camera_to_world") ? poseFromMatrix(reader) : poseFromTarget(reader);
     return camera;
 }
@@ -177,7 +177,7 @@ SceneLight readLight(const std::string& file, const TomlValue& value) {
     const std::string kind = reader.choice("kind", kKinds);
     const auto forbid = [&](std::initializer_list<std::string_view> keys) {
         for (const std::string_view key : keys)
-            reader.forbid(key, fmt::format("is not used by kind '{}'", kind));
+            reader.forbid(key, formatText("is not used by kind '{}'", kind));
     };
     if (kind != "point") light.direction = unitOf(reader.direction("direction"));
     if (kind == "directional") {
@@ -200,8 +200,8 @@ SceneLight readLight(const std::string& file, const TomlValue& value) {
     if (reader.has("inner_deg")) light.inner_deg = reader.number("inner_deg", {0, kMaxCone_deg});
     if (!(light.inner_deg <= light.outer_deg - kMinConeStep_deg))
         reader.failKey(reader.has("inner_deg") ? "inner_deg" : "outer_deg",
-                       fmt::format("must be at least {} below 'outer_deg' ({}), not {}", kMinConeStep_deg,
-                                   light.outer_deg, light.inner_deg));
+                       formatText("must be at least {} below 'outer_deg' ({}), not {}", kMinConeStep_deg,
+                                  light.outer_deg, light.inner_deg));
     light.shadow = readShadow(reader, light.kind);
     return light;
 }

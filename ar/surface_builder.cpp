@@ -1,13 +1,12 @@
 #include "ar/surface_builder.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <map>
 
 #include "ar/image_io.h"
 #include "ar/mesh_loader.h"
 #include "ar/transform.h"
+#include "numeric/text.h"
 
 namespace etalon {
 namespace {
@@ -138,12 +137,12 @@ Image<float> loadEnvironment(const Scene& scene, bool strict, std::vector<std::s
         negative += isFinite && value < 0 ? 1 : 0;
         value = isFinite && value > 0 ? static_cast<float>(value * scene.environment.intensity) : 0.f;
         if (!std::isfinite(value))
-            throw InputError(fmt::format("{}: radiance times intensity {} exceeds the range of float",
-                                         where(scene, scene.environment.line), scene.environment.intensity));
+            throw InputError(formatText("{}: radiance times intensity {} exceeds the range of float",
+                                        where(scene, scene.environment.line), scene.environment.intensity));
     }
     if (negative + nonFinite == 0) return image;
-    const std::string found = fmt::format("{}: {} negative and {} non-finite values",
-                                          scene.environment.file.string(), negative, nonFinite);
+    const std::string found = formatText("{}: {} negative and {} non-finite values",
+                                         scene.environment.file.string(), negative, nonFinite);
     if (strict) throw InputError(found);
     warnings.push_back(found + " were set to 0");
     return image;

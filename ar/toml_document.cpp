@@ -1,12 +1,11 @@
 #include "ar/toml_document.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <string_view>
 
+#include "numeric/text.h"
 #include "numeric/check.h"
 
 // toml++ 3.3 meets some bad input (a closing bracket in place of a value) with an assertion only, which ends
@@ -76,16 +75,16 @@ std::string readText(const std::filesystem::path& path) {
     std::error_code error;
     const std::filesystem::file_status status = std::filesystem::status(path, error);
     if (!std::filesystem::exists(status))
-        throw InputError(fmt::format("{}: no such scene file", path.string()));
+        throw InputError(formatText("{}: no such scene file", path.string()));
     if (!std::filesystem::is_regular_file(status))
-        throw InputError(fmt::format("{}: not a regular file", path.string()));
+        throw InputError(formatText("{}: not a regular file", path.string()));
     const uintmax_t size = std::filesystem::file_size(path, error);
     if (!error && size > kMaxTomlBytes)
         throw InputError(
-            fmt::format("{}: {} bytes; a scene file has at most {}", path.string(), size, kMaxTomlBytes));
+            formatText("{}: {} bytes; a scene file has at most {}", path.string(), size, kMaxTomlBytes));
     std::ifstream stream(path, std::ios::binary);
     std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-    if (!stream) throw InputError(fmt::format("{}: cannot be read", path.string()));
+    if (!stream) throw InputError(formatText("{}: cannot be read", path.string()));
     return text;
 }
 
@@ -120,10 +119,10 @@ TomlValue readToml(const std::filesystem::path& path) {
         std::string reason(error.description());
         std::replace(reason.begin(), reason.end(), '\n', ' ');
         throw InputError(
-            fmt::format("{}:{}: not valid TOML: {}", path.string(), lineOf(error.source()), reason));
+            formatText("{}:{}: not valid TOML: {}", path.string(), lineOf(error.source()), reason));
     } catch (const ParserAssertion&) {
-        throw InputError(fmt::format("{}:{}: not valid TOML: a value is missing or misplaced", path.string(),
-                                     lineOfAssertion(text)));
+        throw InputError(formatText("{}:{}: not valid TOML: a value is missing or misplaced", path.string(),
+                                    lineOfAssertion(text)));
     }
 }
 

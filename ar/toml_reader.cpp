@@ -1,11 +1,10 @@
 #include "ar/toml_reader.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "ar/scene.h"
 #include "ar/transform.h"
+#include "numeric/text.h"
 #include "numeric/check.h"
 
 namespace etalon {
@@ -53,14 +52,12 @@ size_t editDistance(std::string_view a, std::string_view b) {
 }
 
 std::string rangeText(NumberRange r) {
-    return fmt::format("{}{}, {}{}", r.loOpen ? '(' : '[', r.lo, r.hi, r.hiOpen ? ')' : ']');
+    return formatText("{}{}, {}{}", r.loOpen ? '(' : '[', r.lo, r.hi, r.hiOpen ? ')' : ']');
 }
 
 }  // namespace
 
-std::string joined(std::span<const std::string_view> names) {
-    return fmt::format("{}", fmt::join(names, ", "));
-}
+std::string joined(std::span<const std::string_view> names) { return joinText(names, ", "); }
 
 std::string printable(std::string_view text) {
     constexpr size_t kMaxShown = 200;
@@ -84,7 +81,7 @@ std::string nearestHint(std::string_view given, std::span<const std::string_view
             nearest = name;
         }
     }
-    return nearest.empty() ? "" : fmt::format(" (did you mean '{}'?)", nearest);
+    return nearest.empty() ? "" : formatText(" (did you mean '{}'?)", nearest);
 }
 
 TableReader::TableReader(const std::string& file, const TomlValue& value, std::string title,
@@ -92,7 +89,7 @@ TableReader::TableReader(const std::string& file, const TomlValue& value, std::s
                          std::span<const std::string_view> shared)
     : file_(&file), table_(&value), title_(std::move(title)) {
     if (value.kind != TomlKind::table)
-        fail(value.line, fmt::format("{} must be a table, not {}", title_, kindName(value.kind)));
+        fail(value.line, formatText("{} must be a table, not {}", title_, kindName(value.kind)));
     std::vector<std::string_view> known(own);
     known.insert(known.end(), shared.begin(), shared.end());
     // The first unknown key in the file's order is the one to report.
@@ -106,16 +103,16 @@ TableReader::TableReader(const std::string& file, const TomlValue& value, std::s
         firstKey = key;
     }
     if (firstLine == 0) return;
-    fail(firstLine, fmt::format("unknown key '{}' in {}{}; known keys: {}", printable(firstKey), title_,
-                                nearestHint(firstKey, known), joined(known)));
+    fail(firstLine, formatText("unknown key '{}' in {}{}; known keys: {}", printable(firstKey), title_,
+                               nearestHint(firstKey, known), joined(known)));
 }
 
 void TableReader::fail(int line, const std::string& reason) const {
-    throw InputError(fmt::format("{}:{}: {}", *file_, line, reason));
+    throw InputError(formatText("{}:{}: {}", *file_, line, reason));
 }
 
 void TableReader::failKey(std::string_view key, const std::string& reason) const {
-    fail(lineOf(key), fmt::format("'{}' in {} {}", key, title_, reason));
+    fail(lineOf(key), formatText("'{}' in {} {}", key, title_, reason));
 }
 
 const TomlValue* TableReader::find(std::string_view key) const {
@@ -132,20 +129,20 @@ int TableReader::lineOf(std::string_view key) const {
 
 const TomlValue& TableReader::value(std::string_view key) const {
     const TomlValue* found = find(key);
-    if (found == nullptr) fail(table_->line, fmt::format("missing key '{}' in {}", key, title_));
+    if (found == nullptr) fail(table_->line, formatText("missing key '{}' in {}", key, title_));
     return *found;
 }
 
 double TableReader::checkedNumber(const TomlValue& v, std::string_view key, NumberRange r) const {
     if (v.kind != TomlKind::number && v.kind != TomlKind::integer)
-        fail(v.line, fmt::format("'{}' in {} must be a number in {}, not {}", key, title_, rangeText(r),
-                                 kindName(v.kind)));
+        fail(v.line, formatText("'{}' in {} must be a number in {}, not {}", key, title_, rangeText(r),
+                                kindName(v.kind)));
     // Written so that NaN fails.
     const bool inside =
         (r.loOpen ? v.number > r.lo : v.number >= r.lo) && (r.hiOpen ? v.number < r.hi : v.number <= r.hi);
     if (!inside)
         fail(v.line,
-             fmt::format("'{}' in {} must be a number in {}, not {}", key, title_, rangeText(r), v.number));
+             formatText("'{}' in {} must be a number in {}, not {}", key, title_, rangeText(r), v.number));
     return v.number + 0.0;  // -0 becomes +0
 }
 
@@ -156,15 +153,15 @@ double TableReader::number(std::string_view key, NumberRange range) const {
 int64_t TableReader::integer(std::string_view key, int64_t lo, int64_t hi) const {
     const TomlValue& v = value(key);
     if (v.kind != TomlKind::integer)
-        failKey(key, fmt::format("must be an integer in [{}, {}], not {}", lo, hi, kindName(v.kind)));
+        failKey(key, formatText("must be an integer in [{}, {}], not {}", lo, hi, kindName(v.kind)));
     if (v.integer < lo || v.integer > hi)
-        failKey(key, fmt::format("must be an integer in [{}, {}], not {}", lo, hi, v.integer));
+        failKey(key, formatText("must be an integer in [{}, {}], not {}", lo, hi, v.integer));
     return v.integer;
 }
 
 std::string TableReader::text(std::string_view key) const {
     const TomlValue& v = value(key);
-    if (v.kind != TomlKind::string) failKey(key, fmt::format("must be a string, not {}", kindName(v.kind)));
+    if (v.kind != TomlKind::string) failKey(key, formatText("must be a string, not {}", kindName(v.kind)));
     if (v.text.empty() || v.text.find('\0') != std::string::npos)
         failKey(key, "must be a string that is not empty and has no zero character");
     return v.text;
@@ -173,24 +170,24 @@ std::string TableReader::text(std::string_view key) const {
 bool TableReader::boolean(std::string_view key) const {
     const TomlValue& v = value(key);
     if (v.kind != TomlKind::boolean)
-        failKey(key, fmt::format("must be true or false, not {}", kindName(v.kind)));
+        failKey(key, formatText("must be true or false, not {}", kindName(v.kind)));
     return v.boolean;
 }
 
 std::string TableReader::choice(std::string_view key, std::span<const std::string_view> names) const {
     const std::string given = text(key);
     if (std::find(names.begin(), names.end(), given) == names.end())
-        failKey(key, fmt::format("must be one of {}, not '{}'{}", joined(names), printable(given),
-                                 nearestHint(given, names)));
+        failKey(key, formatText("must be one of {}, not '{}'{}", joined(names), printable(given),
+                                nearestHint(given, names)));
     return given;
 }
 
 std::vector<double> TableReader::numbers(std::string_view key, size_t count, NumberRange range) const {
     const TomlValue& v = value(key);
     if (v.kind != TomlKind::array || v.items.size() != count)
-        failKey(key, fmt::format("must be an array of {} numbers in {}, not {}", count, rangeText(range),
-                                 v.kind == TomlKind::array ? fmt::format("{} of them", v.items.size())
-                                                           : std::string(kindName(v.kind))));
+        failKey(key, formatText("must be an array of {} numbers in {}, not {}", count, rangeText(range),
+                                v.kind == TomlKind::array ? formatText("{} of them", v.items.size())
+                                                          : std::string(kindName(v.kind))));
     std::vector<double> result;
     for (const TomlValue& item : v.items) result.push_back(checkedNumber(item, key, range));
     return result;
@@ -204,7 +201,7 @@ glm::dvec3 TableReader::triple(std::string_view key, NumberRange range) const {
 glm::dvec3 TableReader::direction(std::string_view key) const {
     const glm::dvec3 v = triple(key, {-kMaxSceneNumber, kMaxSceneNumber});
     if (lengthOf(v) < kMinDirectionLength)
-        failKey(key, fmt::format("must not be zero (length at least {})", kMinDirectionLength));
+        failKey(key, formatText("must not be zero (length at least {})", kMinDirectionLength));
     return v;
 }
 
@@ -215,7 +212,7 @@ glm::dmat4 TableReader::matrix(std::string_view key) const {
     for (int row = 0; row < 4; row++) {
         const TomlValue& items = v.items[static_cast<size_t>(row)];
         if (items.kind != TomlKind::array || items.items.size() != 4)
-            fail(items.line, fmt::format("'{}' in {} must be 4 rows of 4 numbers", key, title_));
+            fail(items.line, formatText("'{}' in {} must be 4 rows of 4 numbers", key, title_));
         for (int c = 0; c < 4; c++)
             m[c][row] =
                 checkedNumber(items.items[static_cast<size_t>(c)], key, {-kMaxSceneNumber, kMaxSceneNumber});
@@ -231,9 +228,9 @@ std::filesystem::path TableReader::existingFile(std::string_view key) const {
     std::error_code error;
     const std::filesystem::file_status status = std::filesystem::status(path, error);
     if (!std::filesystem::exists(status))
-        failKey(key, fmt::format("names a file that does not exist: {}", printable(path.string())));
+        failKey(key, formatText("names a file that does not exist: {}", printable(path.string())));
     if (!std::filesystem::is_regular_file(status))
-        failKey(key, fmt::format("does not name a regular file: {}", printable(path.string())));
+        failKey(key, formatText("does not name a regular file: {}", printable(path.string())));
     return path;
 }
 
@@ -243,7 +240,7 @@ std::span<const TomlValue> TableReader::tables(std::string_view key) const {
     const bool good =
         v->kind == TomlKind::array &&
         std::all_of(v->items.begin(), v->items.end(), [](auto& i) { return i.kind == TomlKind::table; });
-    if (!good) failKey(key, fmt::format("must be an array of tables: write [[{}]]", key));
+    if (!good) failKey(key, formatText("must be an array of tables: write [[{}]]", key));
     return v->items;
 }
 

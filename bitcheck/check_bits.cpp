@@ -1,8 +1,8 @@
 #include "bitcheck/check_bits.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
+
+#include "numeric/text.h"
 
 namespace etalon {
 namespace {
@@ -66,16 +66,16 @@ std::optional<Agreement> findAgreement(const BitCase& c, const std::vector<Attem
 
 std::string differenceText(const BitDifference& d, const BitCase& c, size_t differing, size_t tried) {
     std::string text =
-        fmt::format("{}: plane {}, tile at ({}, {})", wayText(d.way, c), d.plane, d.tileX, d.tileY);
+        formatText("{}: plane {}, tile at ({}, {})", wayText(d.way, c), d.plane, d.tileX, d.tileY);
     if (d.pixel) {
-        text += fmt::format(", pixel ({}, {})", d.pixel->x, d.pixel->y);
-        text += fmt::format(" {} {}: {} instead of {}", d.layerName, d.pixel->layer,
-                            wordText(d.kind, d.pixel->found), wordText(d.kind, d.pixel->expected));
-        if (d.agreeingWay) text += fmt::format(" as with {}", wayText(*d.agreeingWay, c));
+        text += formatText(", pixel ({}, {})", d.pixel->x, d.pixel->y);
+        text += formatText(" {} {}: {} instead of {}", d.layerName, d.pixel->layer,
+                           wordText(d.kind, d.pixel->found), wordText(d.kind, d.pixel->expected));
+        if (d.agreeingWay) text += formatText(" as with {}", wayText(*d.agreeingWay, c));
     } else {
         text += ": no way of this machine gives the expected hash";
     }
-    return text + fmt::format("; {} of {} ways differ", differing, tried);
+    return text + formatText("; {} of {} ways differ", differing, tried);
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
 #include "bitcheck/dump.h"
 
-#include <fmt/format.h>
-
 #include <string_view>
+
+#include "numeric/text.h"
 
 namespace etalon {
 namespace {
@@ -44,8 +44,8 @@ BitDump decodeDump(std::span<const std::byte> bytes, const std::string& file) {
                                  static_cast<size_t>(shape.layers);
             const size_t size = wordBytes(shape.kind);
             if (bytes.size() / size < count)
-                throw InputError(fmt::format("{}: the words of {}, plane {} are missing: the file was cut",
-                                             file, c.name, shape.name));
+                throw InputError(formatText("{}: the words of {}, plane {} are missing: the file was cut",
+                                            file, c.name, shape.name));
             BitPlane plane{shape.name, shape.kind, shape.width, shape.height, shape.layers, {}, {}};
             for (size_t w = 0; w < count; w++) {
                 uint64_t word = 0;
@@ -56,12 +56,12 @@ BitDump decodeDump(std::span<const std::byte> bytes, const std::string& file) {
             bytes = bytes.subspan(count * size);
             if (hashPlane(plane).tiles != shape.tiles)
                 throw InputError(
-                    fmt::format("{}: the words of {}, plane {} are damaged", file, c.name, shape.name));
+                    formatText("{}: the words of {}, plane {} are damaged", file, c.name, shape.name));
             planes.planes.push_back(std::move(plane));
         }
         dump.cases.push_back(std::move(planes));
     }
-    if (!bytes.empty()) throw InputError(fmt::format("{}: {} bytes too many", file, bytes.size()));
+    if (!bytes.empty()) throw InputError(formatText("{}: {} bytes too many", file, bytes.size()));
     return dump;
 }
 

@@ -4,6 +4,7 @@
 #include <bit>
 #include <utility>
 
+#include "numeric/text.h"
 #include "numeric/hash.h"
 
 namespace etalon {
@@ -65,11 +66,11 @@ BitPlane planeOf(std::string name, std::span<const double> values, int width) {
 std::string wordText(WordKind kind, uint64_t word) {
     switch (kind) {
         case WordKind::uint32:
-            return fmt::format("{:08x} ({})", word, word);
+            return formatText("{:08x} ({})", word, word);
         case WordKind::float32:
-            return fmt::format("{:08x} ({:.9g})", word, std::bit_cast<float>(static_cast<uint32_t>(word)));
+            return formatText("{:08x} ({:.9g})", word, std::bit_cast<float>(static_cast<uint32_t>(word)));
         case WordKind::float64:
-            return fmt::format("{:016x} ({:.17g})", word, std::bit_cast<double>(word));
+            return formatText("{:016x} ({:.17g})", word, std::bit_cast<double>(word));
     }
     return "?";
 }

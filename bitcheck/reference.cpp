@@ -1,11 +1,10 @@
 #include "bitcheck/reference.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <charconv>
 #include <optional>
 
+#include "numeric/text.h"
 #include "numeric/hash.h"
 
 namespace etalon {
@@ -40,15 +39,15 @@ class Lines {
         if (!atEnd_) rest_.remove_prefix(length + 1);
     }
     [[noreturn]] void fail(const std::string& reason) const {
-        throw InputError(fmt::format("{}:{}: {}", file_, number_, reason));
+        throw InputError(formatText("{}:{}: {}", file_, number_, reason));
     }
     void requireLine(std::string_view what) const {
-        if (atEnd_) fail(fmt::format("the file ends where {} should stand: it was cut", what));
+        if (atEnd_) fail(formatText("the file ends where {} should stand: it was cut", what));
     }
     // What follows "key " on this line.
     std::string_view valueOf(std::string_view key) const {
-        requireLine(fmt::format("\"{}\"", key));
-        if (!isKey(key)) fail(fmt::format("\"{}\" is missing", key));
+        requireLine(formatText("\"{}\"", key));
+        if (!isKey(key)) fail(formatText("\"{}\" is missing", key));
         return line_.substr(key.size() + 1);
     }
     bool isKey(std::string_view key) const {
@@ -75,7 +74,7 @@ std::vector<std::string_view> wordsOf(std::string_view text, char separator) {
 uint64_t readHash(const Lines& lines, std::string_view text) {
     const auto hash = numberOf<uint64_t>(text, 16);
     if (text.size() != kHashDigits || !hash)
-        lines.fail(fmt::format("\"{}\" is not a hash of {} hexadecimal digits", text, kHashDigits));
+        lines.fail(formatText("\"{}\" is not a hash of {} hexadecimal digits", text, kHashDigits));
     return *hash;
 }
 
@@ -87,14 +86,14 @@ PlaneHashes readPlane(Lines& lines) {
     std::optional<WordKind> kind;
     for (const WordKind k : {WordKind::uint32, WordKind::float32, WordKind::float64})
         if (words[1] == wordKindName(k)) kind = k;
-    if (!kind) lines.fail(fmt::format("unknown kind \"{}\"", words[1]));
+    if (!kind) lines.fail(formatText("unknown kind \"{}\"", words[1]));
     plane.kind = *kind;
     const auto sizes = wordsOf(words[2], 'x');
     int* const fields[] = {&plane.width, &plane.height, &plane.layers};
     for (size_t i = 0; i < std::size(fields); i++) {
         const auto size = sizes.size() == std::size(fields) ? numberOf<int>(sizes[i]) : std::nullopt;
         if (!size || *size < 1 || *size > kMaxImageSize)
-            lines.fail(fmt::format("\"{}\" is not a size", words[2]));
+            lines.fail(formatText("\"{}\" is not a size", words[2]));
         *fields[i] = *size;
     }
     lines.next();
@@ -102,7 +101,7 @@ PlaneHashes readPlane(Lines& lines) {
         lines.requireLine("a row of hashes");
         const auto hashes = wordsOf(lines.line(), ' ');
         if (hashes.size() != static_cast<size_t>(plane.columns()))
-            lines.fail(fmt::format("must be the {} hashes of a row of tiles", plane.columns()));
+            lines.fail(formatText("must be the {} hashes of a row of tiles", plane.columns()));
         for (const std::string_view hash : hashes) plane.tiles.push_back(readHash(lines, hash));
     }
     return plane;
@@ -115,11 +114,11 @@ CaseHashes readCase(Lines& lines) {
         c.planes.push_back(readPlane(lines));
         for (size_t i = 0; i + 1 < c.planes.size(); i++)
             if (c.planes[i].name == c.planes.back().name)
-                lines.fail(fmt::format("the plane \"{}\" stands there twice", c.planes[i].name));
+                lines.fail(formatText("the plane \"{}\" stands there twice", c.planes[i].name));
     }
     if (c.planes.empty()) {
         lines.requireLine("\"plane\"");
-        lines.fail(fmt::format("the case \"{}\" has no plane", c.name));
+        lines.fail(formatText("the case \"{}\" has no plane", c.name));
     }
     return c;
 }
@@ -155,25 +154,25 @@ uint64_t hashOfAll(const std::vector<CaseHashes>& cases) {
 
 std::string referenceText(const BitReference& reference) {
     std::string text =
-        fmt::format("{}\nrules {}\nreason {}\n", kFirstLine, reference.rulesVersion, reference.reason);
+        formatText("{}\nrules {}\nreason {}\n", kFirstLine, reference.rulesVersion, reference.reason);
     for (const CaseHashes& c : reference.cases) {
-        text += fmt::format("case {}\n", c.name);
+        text += formatText("case {}\n", c.name);
         for (const PlaneHashes& plane : c.planes) {
-            text += fmt::format("plane {} {} {}x{}x{}\n", plane.name, wordKindName(plane.kind), plane.width,
-                                plane.height, plane.layers);
+            text += formatText("plane {} {} {}x{}x{}\n", plane.name, wordKindName(plane.kind), plane.width,
+                               plane.height, plane.layers);
             for (size_t i = 0; i < plane.tiles.size(); i++) {
                 const bool isLast = (i + 1) % static_cast<size_t>(plane.columns()) == 0;
-                text += fmt::format("{:016x}{}", plane.tiles[i], isLast ? '\n' : ' ');
+                text += formatText("{:016x}{}", plane.tiles[i], isLast ? '\n' : ' ');
             }
         }
     }
-    return text + fmt::format("all {:016x}\n", hashOfAll(reference.cases));
+    return text + formatText("all {:016x}\n", hashOfAll(reference.cases));
 }
 
 BitReference readReference(std::string_view text, const std::string& file) {
     Lines lines(text, file);
     if (lines.atEnd() || lines.line() != kFirstLine)
-        lines.fail(fmt::format("the first line is not \"{}\"", kFirstLine));
+        lines.fail(formatText("the first line is not \"{}\"", kFirstLine));
     lines.next();
     BitReference reference;
     const auto rules = numberOf<int>(lines.valueOf("rules"));
@@ -184,7 +183,7 @@ BitReference readReference(std::string_view text, const std::string& file) {
     lines.next();
     while (lines.isKey("case")) {
         CaseHashes c = readCase(lines);
-        if (reference.find(c.name)) lines.fail(fmt::format("the case \"{}\" stands there twice", c.name));
+        if (reference.find(c.name)) lines.fail(formatText("the case \"{}\" stands there twice", c.name));
         reference.cases.push_back(std::move(c));
     }
     if (readHash(lines, lines.valueOf("all")) != hashOfAll(reference.cases))

@@ -1,8 +1,8 @@
 #include "bitcheck/way.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
+
+#include "numeric/text.h"
 
 namespace etalon {
 namespace {
@@ -35,8 +35,8 @@ std::vector<T> choices(const std::optional<T>& only, bool isVaried, const List& 
 
 std::string wayText(const BitWay& way, const BitCase& c) {
     std::string text = isaName(way.level);
-    if (c.hasThreads) text += fmt::format(", {} thread{}", way.threads, way.threads == 1 ? "" : "s");
-    if (c.hasTiles) text += fmt::format(", tile {}", way.tileSize);
+    if (c.hasThreads) text += formatText(", {} thread{}", way.threads, way.threads == 1 ? "" : "s");
+    if (c.hasTiles) text += formatText(", tile {}", way.tileSize);
     return text;
 }
 

@@ -3,8 +3,6 @@
 //   etalon_experiment_irradiance FOLDER_OF_PICTURES [FOLDER_OF_PAPER_DATA]
 #include "probes/irradiance.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -17,6 +15,7 @@
 #include "probes/light_passes.h"
 #include "probes/median_cut.h"
 #include "probes/texel_grid.h"
+#include "numeric/text.h"
 
 namespace etalon::experiments {
 namespace {
@@ -103,19 +102,19 @@ Error errorOf(const Probe& truth, const Probe& found) {
 }
 
 void printErrors(const std::vector<NamedProbe>& probes) {
-    fmt::print("== irradiance-errors\n| probe |");
-    for (const Way& way : kWays) fmt::print(" {} |", way.name);
-    fmt::print("\n| --- |");
-    for (size_t i = 0; i < std::size(kWays); i++) fmt::print(" ---: |");
-    fmt::print("\n");
+    printText("== irradiance-errors\n| probe |");
+    for (const Way& way : kWays) printText(" {} |", way.name);
+    printText("\n| --- |");
+    for (size_t i = 0; i < std::size(kWays); i++) printText(" ---: |");
+    printText("\n");
     for (const NamedProbe& n : probes) {
         const Probe truth = exact(n.probe, kShown);
-        fmt::print("| {} |", n.name);
+        printText("| {} |", n.name);
         for (const Way& way : kWays) {
             const Error e = errorOf(truth, way.irradiance(n.probe, kShown));
-            fmt::print(" {:.2f}, {:.1f} |", e.rms_percent, e.worst_percent);
+            printText(" {:.2f}, {:.1f} |", e.rms_percent, e.worst_percent);
         }
-        fmt::print("\n");
+        printText("\n");
     }
 }
 
@@ -158,23 +157,23 @@ void printGrace(const std::filesystem::path& path) {
             }
         }
     const double factor = products / squares;
-    fmt::print("== grace-harmonics\n| l, m | printed | measured times {:.4f} |\n| --- | --- | --- |\n",
-               factor);
+    printText("== grace-harmonics\n| l, m | printed | measured times {:.4f} |\n| --- | --- | --- |\n",
+              factor);
     for (int l = 0; l <= 2; l++)
         for (int m = -l; m <= l; m++) {
             const auto& printed = kGrace[harmonicIndex(l, m)];
             const glm::dvec3 v = factor * found.at(l, m);
             for (int c = 0; c < 3; c++) worst = std::max(worst, std::abs(v[c] - printed[c]));
-            fmt::print("| {}, {} | {:.2f} {:.2f} {:.2f} | {:.4f} {:.4f} {:.4f} |\n", l, m, printed[0],
-                       printed[1], printed[2], v.x, v.y, v.z);
+            printText("| {}, {} | {:.2f} {:.2f} {:.2f} | {:.4f} {:.4f} {:.4f} |\n", l, m, printed[0],
+                      printed[1], printed[2], v.x, v.y, v.z);
         }
-    fmt::print("\nLargest difference: {:.4f}, {:.2f} % of the largest coefficient.\n", worst,
-               100 * worst / largest);
+    printText("\nLargest difference: {:.4f}, {:.2f} % of the largest coefficient.\n", worst,
+              100 * worst / largest);
 }
 
 int run(int argc, char** argv) {
     if (argc < 2 || argc > 3) {
-        fmt::print(stderr, "usage: etalon_experiment_irradiance FOLDER_OF_PICTURES [FOLDER_OF_PAPER_DATA]\n");
+        printText(stderr, "usage: etalon_experiment_irradiance FOLDER_OF_PICTURES [FOLDER_OF_PAPER_DATA]\n");
         return 2;
     }
     const std::vector<NamedProbe> probes = fetchedProbes();
@@ -193,7 +192,7 @@ int main(int argc, char** argv) {
     try {
         return etalon::experiments::run(argc, argv);
     } catch (const std::exception& error) {
-        fmt::print(stderr, "etalon_experiment_irradiance: {}\n", error.what());
+        printText(stderr, "etalon_experiment_irradiance: {}\n", error.what());
         return 2;
     }
 }

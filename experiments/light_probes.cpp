@@ -1,10 +1,9 @@
 #include "experiments/light_probes.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "ar/image_io.h"
+#include "numeric/text.h"
 
 namespace etalon::experiments {
 
@@ -20,7 +19,7 @@ std::vector<NamedProbe> fetchedProbes() {
     std::vector<NamedProbe> probes;
     for (const char* name :
          {"city", "courtyard", "forest", "interior", "night", "studio", "sunrise", "sunset"})
-        probes.push_back({name, latLongProbe(readRgb(fmt::format("scenes/probes/{}.exr", name)))});
+        probes.push_back({name, latLongProbe(readRgb(formatText("scenes/probes/{}.exr", name)))});
     return probes;
 }
 

@@ -1,7 +1,6 @@
 // What docs/experiments/lights.md says about lights from probes, measured. scripts/experiments runs it and
 // puts what it prints, between lines "== NAME", into the page's blocks of these names.
 //   etalon_experiment_lights FOLDER_OF_PLOTS [FOLDER_OF_PAPER_DATA]
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +12,7 @@
 #include "ar/image_io.h"
 #include "experiments/light_probes.h"
 #include "experiments/plot.h"
+#include "numeric/text.h"
 #include "numeric/random.h"
 #include "probes/irradiance.h"
 #include "probes/light_filter.h"
@@ -126,7 +126,7 @@ void printFurnaces() {
                         std::abs(a.unweighted - kPrinted16) + std::abs(b.unweighted - kPrinted64);
                     rows.push_back(
                         {byMean, byMean + std::abs(a.rms - kRms16) + std::abs(b.rms - kRms64),
-                         fmt::format(
+                         formatText(
                              "| {} | {} | {} | {} | {:.4f} | {:.4f} | {:.3f} | {:.4f} | {:.4f} | {:.3f} |",
                              nameOf(side), columns ? "columns" : "rows", nameOf(place), nameOf(weight),
                              a.weighted, a.unweighted, a.rms, b.weighted, b.unweighted, b.rms)});
@@ -139,12 +139,12 @@ void printFurnaces() {
     const auto print = [&](const char* block, auto key, size_t count) {
         std::stable_sort(rows.begin(), rows.end(),
                          [&](const Row& a, const Row& b) { return a.*key < b.*key; });
-        fmt::print("== {}\n{}\n", block, header);
-        for (size_t i = 0; i < std::min(count, rows.size()); i++) fmt::print("{}\n", rows[i].text);
+        printText("== {}\n{}\n", block, header);
+        for (size_t i = 0; i < std::min(count, rows.size()); i++) printText("{}\n", rows[i].text);
     };
     print("furnace-nearest", &Row::byAll, 6);
     print("furnace-by-mean", &Row::byMean, rows.size());
-    fmt::print(
+    printText(
         "== furnace-identity\nLargest difference of a weighted mean from pi, over all {} rows: {:.1e}.\n",
         2 * rows.size(), largest);
 }
@@ -158,10 +158,10 @@ void printDiffuse(const std::vector<NamedProbe>& probes, const fs::path& data, c
         {LongerSide::arc, LightPlace::centre},   {LongerSide::arc, LightPlace::centroid}};
     std::string header = "| probe | truth | lights |", rule = "| --- | --- | ---: |";
     for (const auto& way : ways) {
-        header += fmt::format(" {}, {} |", nameOf(way.first), nameOf(way.second));
+        header += formatText(" {}, {} |", nameOf(way.first), nameOf(way.second));
         rule += " ---: |";
     }
-    fmt::print("== {}\n{}\n{}\n", block, header, rule);
+    printText("== {}\n{}\n{}\n", block, header, rule);
     for (const NamedProbe& n : probes) {
         std::vector<std::pair<std::string, std::vector<glm::dvec3>>> truths = {
             {"exact", diffuseTruth(n.probe, kShown)}};
@@ -178,13 +178,13 @@ void printDiffuse(const std::vector<NamedProbe>& probes, const fs::path& data, c
         }
         for (const auto& truth : truths)
             for (const int k : {4, 6}) {
-                fmt::print("| {} | {} | {} |", n.name, truth.first, 1 << k);
+                printText("| {} | {} | {} |", n.name, truth.first, 1 << k);
                 for (const auto& way : ways) {
                     const Error e =
                         errorOf(truth.second, diffuseOfLights(n.probe, {k, way.first, way.second}, shape));
-                    fmt::print(" {:.1f} %, {:.3g} |", e.mean_percent, e.rms);
+                    printText(" {:.1f} %, {:.3g} |", e.mean_percent, e.rms);
                 }
-                fmt::print("\n");
+                printText("\n");
             }
     }
 }
@@ -199,7 +199,7 @@ void printConvergence(const std::vector<NamedProbe>& probes, const fs::path& plo
     constexpr int kLast = 10;
     for (int k = 1; k <= kLast; k++) plot.x.push_back(1 << k);
     std::string table = "| probe |";
-    for (const double x : plot.x) table += fmt::format(" {:g} |", x);
+    for (const double x : plot.x) table += formatText(" {:g} |", x);
     table += "\n| --- |";
     for (size_t i = 0; i < plot.x.size(); i++) table += " ---: |";
     Plot variants{"Median cut: mean over the probes", "lights", "error in %", plot.x, {}};
@@ -207,13 +207,13 @@ void printConvergence(const std::vector<NamedProbe>& probes, const fs::path& plo
     for (const auto side : {LongerSide::angle, LongerSide::arc})
         for (const auto place : {LightPlace::centre, LightPlace::centroid, LightPlace::median}) {
             ways.emplace_back(side, place);
-            variants.series.push_back({fmt::format("{}, {}", nameOf(side), nameOf(place)),
-                                       std::vector<double>(plot.x.size(), 0.0)});
+            variants.series.push_back(
+                {formatText("{}, {}", nameOf(side), nameOf(place)), std::vector<double>(plot.x.size(), 0.0)});
         }
     for (const NamedProbe& n : probes) {
         const auto truth = diffuseTruth(n.probe, kShown);
         plot.series.push_back({n.name, {}});
-        table += fmt::format("\n| {} |", n.name);
+        table += formatText("\n| {} |", n.name);
         for (int k = 1; k <= kLast; k++)
             for (size_t way = 0; way < ways.size(); way++) {
                 const double percent =
@@ -223,13 +223,13 @@ void printConvergence(const std::vector<NamedProbe>& probes, const fs::path& plo
                     percent / static_cast<double>(probes.size());
                 if (ways[way] == std::pair(LongerSide::arc, LightPlace::centroid)) {
                     plot.series.back().y.push_back(percent);
-                    table += fmt::format(" {:.2f} |", percent);
+                    table += formatText(" {:.2f} |", percent);
                 }
             }
     }
-    fmt::print("== {}\n{}\n", block, table);
-    writePlot(plots / fmt::format("{}.svg", block), plot);
-    writePlot(plots / fmt::format("{}_variants.svg", block), variants);
+    printText("== {}\n{}\n", block, table);
+    writePlot(plots / formatText("{}.svg", block), plot);
+    writePlot(plots / formatText("{}_variants.svg", block), variants);
 }
 
 // ---- Table 7.4: two kinds of hardware.
@@ -279,33 +279,33 @@ void printHardware(const NamedProbe& n, const char* block) {
     Arithmetics exact;
     exact.fill(fp64);
     const glm::dvec3 reference = meanOf(n.probe, exact);
-    fmt::print(
+    printText(
         "== {}\n| {} | R | G | B | R | G | B |\n| --- | ---: | ---: | ---: | ---: | ---: | ---: |\n"
         "| f64 | {:.4f} | {:.4f} | {:.4f} | | | |\n",
         block, n.name, reference.x, reference.y, reference.z);
     const auto row = [&](const std::string& name, const Arithmetics& arithmetics) {
         const glm::dvec3 mean = meanOf(n.probe, arithmetics);
-        fmt::print("| {} | {:.4f} | {:.4f} | {:.4f} |", name, mean.x, mean.y, mean.z);
-        for (int c = 0; c < 3; c++) fmt::print(" {:+.3f} % |", 100 * (mean[c] / reference[c] - 1));
-        fmt::print("\n");
+        printText("| {} | {:.4f} | {:.4f} | {:.4f} |", name, mean.x, mean.y, mean.z);
+        for (int c = 0; c < 3; c++) printText(" {:+.3f} % |", 100 * (mean[c] / reference[c] - 1));
+        printText("\n");
     };
     for (const auto& [name, arithmetic] : {std::pair("r300-fp24", fp24R300), std::pair("nv40-fp16", fp16Nv40),
                                            std::pair("nv40-fp32", fp32Nv40)}) {
         Arithmetics all;
         all.fill(arithmetic);
-        row(fmt::format("**{}**", name), all);
+        row(formatText("**{}**", name), all);
         for (size_t step = 0; step < kSteps; step++) {
             Arithmetics one = exact, others = all;
             one[step] = arithmetic, others[step] = fp64;
-            row(fmt::format("{}: only {}", name, kStepNames[step]), one);
-            row(fmt::format("{}: all but {}", name, kStepNames[step]), others);
+            row(formatText("{}: only {}", name, kStepNames[step]), one);
+            row(formatText("{}: all but {}", name, kStepNames[step]), others);
         }
     }
 }
 
 // The means of the other ways to place and weight the lights, in f64.
 void printVariantMeans(const NamedProbe& n) {
-    fmt::print(
+    printText(
         "== means-papers\n| longer side | place | weights | R | G | B |\n"
         "| --- | --- | --- | ---: | ---: | ---: |\n");
     for (const auto side : {LongerSide::angle, LongerSide::arc})
@@ -315,8 +315,8 @@ void printVariantMeans(const NamedProbe& n) {
                 glm::dvec3 mean{0};
                 const auto irradiance = diffuseOfLights(n.probe, {4, side, place, weight}, n.probe.shape);
                 for (const glm::dvec3& v : irradiance) mean += v / static_cast<double>(irradiance.size());
-                fmt::print("| {} | {} | {} | {:.3f} | {:.3f} | {:.3f} |\n", nameOf(side), nameOf(place),
-                           nameOf(weight), mean.x, mean.y, mean.z);
+                printText("| {} | {} | {} | {:.3f} | {:.3f} | {:.3f} |\n", nameOf(side), nameOf(place),
+                          nameOf(weight), mean.x, mean.y, mean.z);
             }
 }
 
@@ -324,7 +324,7 @@ void printVariantMeans(const NamedProbe& n) {
 
 void printFlicker(const NamedProbe& n) {
     constexpr int kFrames = 48;
-    fmt::print(
+    printText(
         "== flicker\n| lights | blend | angle per frame | intensity per frame |\n| ---: | ---: | ---: | ---: "
         "|\n");
     for (const int k : {4, 6}) {
@@ -336,8 +336,8 @@ void printFlicker(const NamedProbe& n) {
             raw.push_back(medianCutLights(noisy, {k}).lights);
         }
         const auto row = [&](const char* name, const Flicker& f) {
-            fmt::print("| {} | {} | {:.3f} deg | {:.2f} % |\n", 1 << k, name, f.angle_rad * 180 / kPi,
-                       100 * f.intensity);
+            printText("| {} | {} | {:.3f} deg | {:.2f} % |\n", 1 << k, name, f.angle_rad * 180 / kPi,
+                      100 * f.intensity);
         };
         row("none", meanFlicker(raw));
         for (const auto& [name, blend] :
@@ -355,7 +355,7 @@ void printFlicker(const NamedProbe& n) {
 
 int run(int argc, char** argv) {
     if (argc < 2 || argc > 3) {
-        fmt::print(stderr, "usage: etalon_experiment_lights FOLDER_OF_PLOTS [FOLDER_OF_PAPER_DATA]\n");
+        printText(stderr, "usage: etalon_experiment_lights FOLDER_OF_PLOTS [FOLDER_OF_PAPER_DATA]\n");
         return 2;
     }
     const fs::path plots = argv[1], data = argc > 2 ? argv[2] : "";
@@ -367,7 +367,7 @@ int run(int argc, char** argv) {
     printFlicker(probes[1]);
     std::vector<NamedProbe> papers;
     for (const char* name : {"uffizi", "grace"}) {
-        const fs::path path = data / fmt::format("{}_latlong_256x128.hdr", name);
+        const fs::path path = data / formatText("{}_latlong_256x128.hdr", name);
         if (!data.empty() && fs::exists(path)) papers.push_back({name, latLongProbe(readRgb(path))});
     }
     if (papers.size() < 2) return 0;
@@ -385,7 +385,7 @@ int main(int argc, char** argv) {
     try {
         return etalon::experiments::run(argc, argv);
     } catch (const std::exception& error) {
-        fmt::print(stderr, "etalon_experiment_lights: {}\n", error.what());
+        printText(stderr, "etalon_experiment_lights: {}\n", error.what());
         return 2;
     }
 }

@@ -1,9 +1,9 @@
 #include "experiments/plot.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include "numeric/text.h"
 
 namespace etalon::experiments {
 namespace {
@@ -49,33 +49,32 @@ std::string svgOf(const Plot& plot) {
         return s.x.empty() ? plot.x : s.x;
     };
 
-    std::string svg = fmt::format(
+    std::string svg = formatText(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" "
         "font-family=\"sans-serif\" font-size=\"12\">\n<rect width=\"{0}\" height=\"{1}\" fill=\"white\"/>\n",
         kWidth, kHeight);
     const auto text = [&](double x, double y, const char* anchor, const std::string& words,
                           const std::string& more = "") {
-        svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\"{}>{}</text>\n", x, y, anchor,
-                           more, words);
+        svg += formatText("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\"{}>{}</text>\n", x, y, anchor,
+                          more, words);
     };
     const auto line = [&](double x0, double y0, double x1, double y1, const char* colour) {
-        svg += fmt::format("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"{}\"/>\n",
-                           x0, y0, x1, y1, colour);
+        svg += formatText("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"{}\"/>\n",
+                          x0, y0, x1, y1, colour);
     };
     text(kLeft, 22, "start", plot.title, " font-size=\"15\"");
     text((kLeft + kWidth - kRight) / 2, kHeight - 12, "middle", plot.xName);
     text(18, (kTop + kHeight - kBottom) / 2, "middle", plot.yName,
-         fmt::format(" transform=\"rotate(-90 18 {:.1f})\"", (kTop + kHeight - kBottom) / 2));
+         formatText(" transform=\"rotate(-90 18 {:.1f})\"", (kTop + kHeight - kBottom) / 2));
     for (const double x : ticks) {
         line(px(x), kTop, px(x), kHeight - kBottom, "#e4e4e4");
-        text(px(x), kHeight - kBottom + 18, "middle", fmt::format("{:g}", x));
+        text(px(x), kHeight - kBottom + 18, "middle", formatText("{:g}", x));
     }
     for (int decade = static_cast<int>(low); decade <= static_cast<int>(high); decade++)
         for (int step = 1; step <= (decade < high ? 9 : 1); step++) {
             const double y = step * std::pow(10.0, decade);
             line(kLeft, py(y), kWidth - kRight, py(y), step == 1 ? "#c4c4c4" : "#f0f0f0");
-            if (step == 1 || step == 2 || step == 5)
-                text(kLeft - 6, py(y) + 4, "end", fmt::format("{:g}", y));
+            if (step == 1 || step == 2 || step == 5) text(kLeft - 6, py(y) + 4, "end", formatText("{:g}", y));
         }
     line(kLeft, kTop, kLeft, kHeight - kBottom, "black");
     line(kLeft, kHeight - kBottom, kWidth - kRight, kHeight - kBottom, "black");
@@ -97,15 +96,15 @@ std::string svgOf(const Plot& plot) {
         const char* colour = kColours[i % std::size(kColours)];
         std::string points;
         for (size_t k = 0; k < s.y.size(); k++)
-            points += fmt::format("{}{:.1f},{:.1f}", k == 0 ? "" : " ", px(xOf(s)[k]), py(s.y[k]));
-        svg += fmt::format("<polyline points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.8\"/>\n",
-                           points, colour);
+            points += formatText("{}{:.1f},{:.1f}", k == 0 ? "" : " ", px(xOf(s)[k]), py(s.y[k]));
+        svg += formatText("<polyline points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.8\"/>\n",
+                          points, colour);
         for (size_t k = 0; k < s.x.size(); k++)
-            svg += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\" fill=\"{}\"/>\n", px(s.x[k]),
-                               py(s.y[k]), k == 0 ? 4.5 : 2.5, colour);
+            svg += formatText("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\" fill=\"{}\"/>\n", px(s.x[k]),
+                              py(s.y[k]), k == 0 ? 4.5 : 2.5, colour);
         const double end = kWidth - kRight;
         if (s.x.empty()) line(end, py(s.y.back()), end + 14, label[i] - beyond, colour);
-        text(end + 18, label[i] - beyond + 4, "start", s.name, fmt::format(" fill=\"{}\"", colour));
+        text(end + 18, label[i] - beyond + 4, "start", s.name, formatText(" fill=\"{}\"", colour));
     }
     return svg + "</svg>\n";
 }

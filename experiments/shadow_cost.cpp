@@ -1,7 +1,6 @@
 // What a better shadow costs: each shadow method against the visibility oracle. Prints the tables of
 // docs/experiments/shadow_cost.md between lines "== NAME"; scripts/experiments puts them there.
 //   etalon_experiment_shadow_cost FOLDER: where shadow_cost.svg is written
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -17,6 +16,7 @@
 #include "experiments/plot.h"
 #include "lighting/lit_points.h"
 #include "lighting/render_view.h"
+#include "numeric/text.h"
 #include "numeric/parallel.h"
 #include "raster/blur.h"
 #include "shadows/light_samples.h"
@@ -145,11 +145,11 @@ constexpr const char* kHeader =
 Result printRow(const Study& study, const Method& method) {
     const Result r = measure(study, method);
     const auto ofAll = [&](double value, int digits) {
-        return method.onlyGround ? std::string() : fmt::format("{:.{}f}", value, digits);
+        return method.onlyGround ? std::string() : formatText("{:.{}f}", value, digits);
     };
-    fmt::print("| {} | {} | {} | {} | {} | {} | {} | {:.4f} | {:.1f} |\n", method.name, method.parameter,
-               method.profile, ofAll(100 * r.falseShadow, 2), ofAll(100 * r.falseLight, 2), ofAll(r.hard, 4),
-               ofAll(r.soft, 4), r.penumbra, r.milliseconds);
+    printText("| {} | {} | {} | {} | {} | {} | {} | {:.4f} | {:.1f} |\n", method.name, method.parameter,
+              method.profile, ofAll(100 * r.falseShadow, 2), ofAll(100 * r.falseLight, 2), ofAll(r.hard, 4),
+              ofAll(r.soft, 4), r.penumbra, r.milliseconds);
     std::fflush(stdout);
     return r;
 }
@@ -188,7 +188,7 @@ Method shadowMap(const Study& study, std::string name, std::string parameter,
 // The hard map's answer for each pixel, blurred in the image. The points' pixels are found beforehand, as
 // shading does.
 Method screenMaskOf(const Study& study, double sigma_px) {
-    Method method{"screen mask", fmt::format("blur of {:g} px", sigma_px), "f32", false, {}};
+    Method method{"screen mask", formatText("blur of {:g} px", sigma_px), "f32", false, {}};
     method.find = [&study, sigma_px](const auto& placed, const Profile& profile,
                                      std::vector<double>& visibility) {
         const ShadowMaps maps = mapsOf(study, placed, profile, settingsOf(ShadowFilter::hard, 1, 1024));
@@ -203,7 +203,7 @@ Method screenMaskOf(const Study& study, double sigma_px) {
     return method;
 }
 
-std::string lightsInWords(int count) { return fmt::format("{} light{}", count, count == 1 ? "" : "s"); }
+std::string lightsInWords(int count) { return formatText("{} light{}", count, count == 1 ? "" : "s"); }
 
 // The mean of the volumes of points of the lamp.
 Method volumes(const Study& study, int count) {
@@ -255,7 +255,7 @@ int run(const std::filesystem::path& folder) {
     const auto all = static_cast<double>(study.points.size());
     size_t penumbra = 0;
     for (size_t i = 0; i < study.points.size(); i++) penumbra += study.isPenumbraOfGround(i);
-    fmt::print(
+    printText(
         "== shadow-points\n{} points; {:.1f} % of them see the lamp's centre, {:.1f} % a part of the lamp "
         "only; {} of "
         "these are on the ground.\n",
@@ -281,12 +281,12 @@ int run(const std::filesystem::path& folder) {
         std::vector<Method> methods;
         for (const int size : sizes)
             methods.push_back(
-                shadowMap(study, name, fmt::format("{} texels", size), settingsOf(filter, taps, size)));
+                shadowMap(study, name, formatText("{} texels", size), settingsOf(filter, taps, size)));
         curve(name, methods);
     };
     // The first large maps of a process wait for its memory.
     measure(study, shadowMap(study, "", "", settingsOf(ShadowFilter::hard, 1, 2048)));
-    fmt::print("== shadow-methods\n{}", kHeader);
+    printText("== shadow-methods\n{}", kHeader);
     overSizes("hard", ShadowFilter::hard, 1, {256, 512, 1024, 2048, 4096});
     for (const int taps : {2, 4, 16})
         overSizes(taps == 2   ? "pcf 2 x 2"
@@ -297,10 +297,10 @@ int run(const std::filesystem::path& folder) {
     for (const int size : {256, 1024}) {
         std::vector<Method> methods;
         for (const int taps : {16, 64, 256})
-            methods.push_back(shadowMap(study, fmt::format("soft, {} texels", size),
-                                        fmt::format("{} points", taps),
+            methods.push_back(shadowMap(study, formatText("soft, {} texels", size),
+                                        formatText("{} points", taps),
                                         settingsOf(ShadowFilter::soft, taps, size)));
-        curve(fmt::format("soft, {} texels", size), methods);
+        curve(formatText("soft, {} texels", size), methods);
     }
     std::vector<Method> masks, ofVolumes;
     for (const double sigma_px : {0.5, 1.0, 2.0, 4.0}) masks.push_back(screenMaskOf(study, sigma_px));
@@ -315,14 +315,14 @@ int run(const std::filesystem::path& folder) {
     }
     std::ofstream(folder / "shadow_cost.svg") << svgOf(plot);
 
-    fmt::print("== shadow-profiles\n{}", kHeader);
+    printText("== shadow-profiles\n{}", kHeader);
     for (const std::string_view name : profileNames()) {
         if (name == "truth") continue;
         ShadowMapSettings settings = settingsOf(ShadowFilter::pcf, 4, 1024);
         if (findProfile(std::string(name))->depth == DepthFormat::d16) settings.depth = ShadowDepth::d16;
         printRow(study, shadowMap(study, "pcf 4 x 4", "1024 texels", settings, std::string(name)));
     }
-    fmt::print("== shadow-formats\n{}", kHeader);
+    printText("== shadow-formats\n{}", kHeader);
     constexpr std::pair<ShadowDepth, const char*> kDepths[] = {{ShadowDepth::d16, "D16"},
                                                                {ShadowDepth::d24, "D24"},
                                                                {ShadowDepth::d32f, "D32F"},
@@ -340,7 +340,7 @@ int run(const std::filesystem::path& folder) {
 
 int main(int count, char** arguments) {
     if (count < 2) {
-        fmt::print(stderr, "usage: {} FOLDER\n", arguments[0]);
+        printText(stderr, "usage: {} FOLDER\n", arguments[0]);
         return 2;
     }
     return etalon::experiments::run(arguments[1]);

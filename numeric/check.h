@@ -1,10 +1,10 @@
 // Preconditions and typed errors.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <stdexcept>
 #include <string>
+
+#include "numeric/text.h"
 
 namespace etalon {
 
@@ -20,17 +20,27 @@ class InputError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-[[noreturn]] inline void failPrecondition(const char* expression, const char* file, int line,
-                                          const std::string& values) {
-    throw PreconditionError(
-        fmt::format("{}:{}: precondition failed: {} ({})", file, line, expression, values));
+// Where a check stands and what it asks for.
+struct CheckPlace {
+    const char* condition;
+    const char* file;
+    int line;
+};
+[[noreturn, gnu::cold]] void failCheck(const CheckPlace& place, const char* format, const TextValue* values,
+                                       size_t count);
+template <class... Values>
+[[noreturn, gnu::cold, gnu::noinline]] void failCheckWith(const CheckPlace& place,
+                                                          TextFormat<sizeof...(Values)> format,
+                                                          const Values&... values) {
+    const TextValue all[sizeof...(Values) + 1] = {TextValue(values)..., TextValue(false)};
+    failCheck(place, format.text, all, sizeof...(Values));
 }
 
 }  // namespace etalon
 
-// Throws PreconditionError with the formatted values unless the condition holds.
-#define ETALON_CHECK(condition, ...)                                                              \
-    do {                                                                                          \
-        if (!(condition))                                                                         \
-            ::etalon::failPrecondition(#condition, __FILE__, __LINE__, fmt::format(__VA_ARGS__)); \
+// Throws PreconditionError with the formatted values (numeric/text.h) unless the condition holds.
+#define ETALON_CHECK(condition, ...)                                                                    \
+    do {                                                                                                \
+        if (!(condition))                                                                               \
+            ::etalon::failCheckWith(::etalon::CheckPlace{#condition, __FILE__, __LINE__}, __VA_ARGS__); \
     } while (false)

@@ -9,6 +9,7 @@
 #include "bench/measure.h"
 #include "bench/peer/peer_passes.h"
 #include "probes/latlong.h"
+#include "numeric/text.h"
 #include "numeric/check.h"
 #include "raster/blur.h"
 
@@ -36,8 +37,8 @@ class Differences {
         largest_ = std::max(largest_, difference);
     }
     std::string text() const {
-        return fmt::format("{} of {} values differ from Etalon's by more than {}, at most by {:.2g}",
-                           differing_, count_, bound_, largest_);
+        return formatText("{} of {} values differ from Etalon's by more than {}, at most by {:.2g}",
+                          differing_, count_, bound_, largest_);
     }
 
   private:
@@ -57,7 +58,7 @@ void compareDepth(Peer& peer, const PeerPass& pass, const std::string& name, con
         ours += inOurs;
         differing += inTheirs != inOurs;
     }
-    note(name, fmt::format("covers {} pixels, Etalon {}; {} differ", theirs, ours, differing));
+    note(name, formatText("covers {} pixels, Etalon {}; {} differ", theirs, ours, differing));
 }
 
 // Radiance where both have drawn.
@@ -176,7 +177,7 @@ int main(int argc, char** argv) {
         benchmark::RunSpecifiedBenchmarks();
         benchmark::Shutdown();
     } catch (const InputError& error) {
-        fmt::print(stderr, "etalon_bench_peer: {}\n", error.what());
+        printText(stderr, "etalon_bench_peer: {}\n", error.what());
         return 2;
     }
     return 0;

@@ -2,6 +2,7 @@
 
 #include <cstring>
 
+#include "numeric/text.h"
 #include "numeric/check.h"
 
 namespace etalon::bench {
@@ -23,7 +24,7 @@ VkBufferImageCopy wholeImage(const DeviceImage& image) {
 
 void checkVulkan(VkResult result, const char* call) {
     if (result != VK_SUCCESS)
-        throw InputError(fmt::format("Vulkan: {} returned {}", call, static_cast<int>(result)));
+        throw InputError(formatText("Vulkan: {} returned {}", call, static_cast<int>(result)));
 }
 
 VulkanDevice::VulkanDevice() {

@@ -1,12 +1,12 @@
 // Acne and detachment over depth formats, slopes and biases: prints the tables of
 // docs/experiments/shadow_bias.md.
-#include <fmt/format.h>
 
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <vector>
 
+#include "numeric/text.h"
 #include "numeric/elementary.h"
 #include "shadows/lookup_passes.h"
 #include "shadows/shadow_map.h"
@@ -142,20 +142,20 @@ Outcome measure(const Setting& setting, ShadowDepth depth, double fromNormal_deg
 
 int run() {
     for (const auto& [depthName, depth] : kDepths) {
-        fmt::print("### {}\n\n| bias |", depthName);
-        for (const double angle_deg : kAngles_deg) fmt::print(" {} deg |", angle_deg);
-        fmt::print("\n| --- |");
-        for (size_t i = 0; i < kAngles_deg.size(); i++) fmt::print(" ---: |");
-        fmt::print("\n");
+        printText("### {}\n\n| bias |", depthName);
+        for (const double angle_deg : kAngles_deg) printText(" {} deg |", angle_deg);
+        printText("\n| --- |");
+        for (size_t i = 0; i < kAngles_deg.size(); i++) printText(" ---: |");
+        printText("\n");
         for (const Setting& setting : kSettings) {
-            fmt::print("| {} |", setting.name);
+            printText("| {} |", setting.name);
             for (const double angle_deg : kAngles_deg) {
                 const Outcome outcome = measure(setting, depth, angle_deg);
-                fmt::print(" {:.2f} % / {:.2f} |", 100 * outcome.acne, outcome.detachment_texels);
+                printText(" {:.2f} % / {:.2f} |", 100 * outcome.acne, outcome.detachment_texels);
             }
-            fmt::print("\n");
+            printText("\n");
         }
-        fmt::print("\n");
+        printText("\n");
     }
     return 0;
 }

@@ -1,5 +1,4 @@
 #include <doctest/doctest.h>
-#include <fmt/format.h>
 
 #include <array>
 #include <cstring>
@@ -11,6 +10,7 @@
 #include "ar/mesh_normals.h"
 #include "ar/ply_check.h"
 #include "ar/transform.h"
+#include "numeric/text.h"
 #include "numeric/check.h"
 #include "tests/support/scratch_folder.h"
 
@@ -30,9 +30,8 @@ const std::vector<Triangle> kCubeTriangles{{0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4, 
 
 std::string cubeObj() {
     std::string text;
-    for (const glm::vec3& v : kCubeVertices) text += fmt::format("v {} {} {}\n", v.x, v.y, v.z);
-    for (const Triangle& t : kCubeTriangles)
-        text += fmt::format("f {} {} {}\n", t[0] + 1, t[1] + 1, t[2] + 1);
+    for (const glm::vec3& v : kCubeVertices) text += formatText("v {} {} {}\n", v.x, v.y, v.z);
+    for (const Triangle& t : kCubeTriangles) text += formatText("f {} {} {}\n", t[0] + 1, t[1] + 1, t[2] + 1);
     return text;
 }
 
@@ -44,8 +43,8 @@ std::string plyHeader(const std::string& format) {
 
 std::string cubePlyAscii() {
     std::string text = plyHeader("ascii");
-    for (const glm::vec3& v : kCubeVertices) text += fmt::format("{} {} {}\n", v.x, v.y, v.z);
-    for (const Triangle& t : kCubeTriangles) text += fmt::format("3 {} {} {}\n", t[0], t[1], t[2]);
+    for (const glm::vec3& v : kCubeVertices) text += formatText("{} {} {}\n", v.x, v.y, v.z);
+    for (const Triangle& t : kCubeTriangles) text += formatText("3 {} {} {}\n", t[0], t[1], t[2]);
     return text;
 }
 

@@ -1,8 +1,8 @@
 // The elementary functions against MPFR, in all number types.
+#include "numeric/text.h"
 #include "numeric/elementary.h"
 
 #include <doctest/doctest.h>
-#include <fmt/format.h>
 #include <mpfr.h>
 
 #include <algorithm>
@@ -113,8 +113,8 @@ Worst worstError(const Computed& computed, Exact exact, Precision p, const Gener
 }
 
 void checkBound(const char* name, const Worst& worst, double bound) {
-    MESSAGE(fmt::format("{}: largest error {} ulp at {:a}, {:a} of {}", name, worst.ulps, worst.at.a,
-                        worst.at.b, worst.measured));
+    MESSAGE(formatText("{}: largest error {} ulp at {:a}, {:a} of {}", name, worst.ulps, worst.at.a,
+                       worst.at.b, worst.measured));
     CHECK(worst.ulps <= bound);
     CHECK(worst.measured >= kCases / 2 * 99 / 100);
 }

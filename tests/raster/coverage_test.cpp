@@ -1,6 +1,5 @@
 // Rules 1 to 4: which samples a triangle covers.
 #include <doctest/doctest.h>
-#include <fmt/format.h>
 
 #include <utility>
 #include <vector>
@@ -9,6 +8,7 @@
 #include "tests/support/draw_triangles.h"
 #include "tests/support/random_triangles.h"
 #include "tests/support/reference_replay.h"
+#include "numeric/text.h"
 
 using namespace etalon;
 
@@ -71,14 +71,14 @@ Outcome compareWithOracle(const Setting& s, const std::vector<ClipVertex>& verti
          a.rejected + a.zeroArea != e.rejected + e.zeroArea || a.records != actual.triangleCount() ||
          (e.clipped == 0 && a.records + a.missed != expected.records.size())))
         difference =
-            fmt::format("statistics: dropped {} rejected {} clipped {} zero {} instead of {} {} {} {}",
-                        a.droppedNonFinite, a.rejected, a.clipped, a.zeroArea, e.droppedNonFinite, e.rejected,
-                        e.clipped, e.zeroArea);
+            formatText("statistics: dropped {} rejected {} clipped {} zero {} instead of {} {} {} {}",
+                       a.droppedNonFinite, a.rejected, a.clipped, a.zeroArea, e.droppedNonFinite, e.rejected,
+                       e.clipped, e.zeroArea);
     return {difference, e};
 }
 
 std::string describe(const Setting& s, const std::vector<ClipVertex>& vertices) {
-    std::string text = fmt::format(
+    std::string text = formatText(
         "target {}x{}, viewport {} {} {}x{}, {} samples, {} subpixel bits, tile {}, threads {}, depth clamp "
         "{}, "
         "stencil {}\n",
@@ -86,7 +86,7 @@ std::string describe(const Setting& s, const std::vector<ClipVertex>& vertices) 
         s.format.subpixelBits, s.options.tileSize, s.options.threads, s.state.depthClamp,
         s.state.stencil.enabled);
     for (const ClipVertex& v : vertices)
-        text += fmt::format("  {{{:a}, {:a}, {:a}, {:a}}}\n", v.x, v.y, v.z, v.w);
+        text += formatText("  {{{:a}, {:a}, {:a}, {:a}}}\n", v.x, v.y, v.z, v.w);
     return text;
 }
 

@@ -1,6 +1,5 @@
 // Rules 5 and 6: how close two surfaces may be and still be told apart.
 #include <doctest/doctest.h>
-#include <fmt/format.h>
 
 #include <array>
 #include <cmath>
@@ -8,6 +7,7 @@
 #include <vector>
 
 #include "tests/support/draw_triangles.h"
+#include "numeric/text.h"
 
 using namespace etalon;
 
@@ -78,16 +78,16 @@ TEST_CASE("TwoPlaneOrderSweep") {
         {"D32F fp32", {1, 8, DepthFormat::d32f, exact, RasterReal::fp32}, 0x1p-24, 0.2, 4.5},
         {"D32F fp64", {1, 8, DepthFormat::d32f, exact, RasterReal::fp64}, 0x1p-24, 0.2, 1.25},
     };
-    std::string table = fmt::format("smallest distance [m] in the right order; near {} m, far {} m\n{:>10}",
-                                    kNear, kFar, "at [m]");
-    for (const Column& column : columns) table += fmt::format("{:>12}", column.name);
+    std::string table = formatText("smallest distance [m] in the right order; near {} m, far {} m\n{:>10}",
+                                   kNear, kFar, "at [m]");
+    for (const Column& column : columns) table += formatText("{:>12}", column.name);
     for (double distance : {0.12, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0, 300.0, 900.0}) {
-        table += fmt::format("\n{:>10}", distance);
+        table += formatText("\n{:>10}", distance);
         std::array<double, 6> smallest;
         for (size_t i = 0; i < 6; i++) {
             smallest[i] = smallestResolved(distance, columns[i].format);
-            table += smallest[i] == kUnresolved ? fmt::format("{:>12}", "-")
-                                                : fmt::format("{:>12.3g}", smallest[i]);
+            table +=
+                smallest[i] == kUnresolved ? formatText("{:>12}", "-") : formatText("{:>12.3g}", smallest[i]);
             // The far side of the tilted plane is the least resolved.
             const Column& c = columns[i];
             const double bound = predicted(distance / (1 - kTilt), c.unit * c.highest);

@@ -2,7 +2,6 @@
 #include "raster/depth.h"
 
 #include <doctest/doctest.h>
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <bit>
@@ -12,6 +11,7 @@
 #include "tests/support/draw_triangles.h"
 #include "tests/support/random_triangles.h"
 #include "tests/support/reference_replay.h"
+#include "numeric/text.h"
 
 using namespace etalon;
 

@@ -1,7 +1,6 @@
 // Rules 5, 6, 10 and 11 together: a scene gives the bits of drawing one triangle after the other, however the
 // work is cut.
 #include <doctest/doctest.h>
-#include <fmt/format.h>
 
 #include <array>
 #include <vector>
@@ -9,6 +8,7 @@
 #include "tests/support/draw_triangles.h"
 #include "tests/support/random_triangles.h"
 #include "tests/support/reference_replay.h"
+#include "numeric/text.h"
 
 using namespace etalon;
 

@@ -1,7 +1,6 @@
 // Rules 2 and 4: triangles that share an edge leave no gap and no pixel drawn twice, also where they are
 // clipped.
 #include <doctest/doctest.h>
-#include <fmt/format.h>
 
 #include <array>
 #include <cmath>
@@ -11,6 +10,7 @@
 #include "raster/rasterizer.h"
 #include "tests/support/draw_triangles.h"
 #include "tests/support/random_triangles.h"
+#include "numeric/text.h"
 
 using namespace etalon;
 

@@ -1,10 +1,10 @@
 #include "tests/support/reference_replay.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
+
+#include "numeric/text.h"
 
 namespace etalon::oracle {
 namespace {
@@ -118,12 +118,12 @@ void drawPolygon(Target& target, const Viewport& viewport, const DrawState& stat
 std::string describe(const RenderTarget& actual, const Target& expected, uint32_t actualId,
                      uint32_t expectedId) {
     if (actualId == kNoTriangle || expectedId == kNoTriangle)
-        return actualId == expectedId ? "" : fmt::format("id {} instead of {}", actualId, expectedId);
-    if (actualId >= actual.triangleCount()) return fmt::format("id {} has no record", actualId);
+        return actualId == expectedId ? "" : formatText("id {} instead of {}", actualId, expectedId);
+    if (actualId >= actual.triangleCount()) return formatText("id {} has no record", actualId);
     const TriangleRecord a = actual.triangle(actualId);
     const Record& e = expected.records[expectedId];
     if (a.draw != e.draw || a.triangle != e.triangle)
-        return fmt::format("triangle {}.{} instead of {}.{}", a.draw, a.triangle, e.draw, e.triangle);
+        return formatText("triangle {}.{} instead of {}.{}", a.draw, a.triangle, e.draw, e.triangle);
     if (a.front != e.front || a.area != e.piece.area) return "facing or area of the record";
     if (a.clipped != e.clipped) return "clipped flag of the record";
     for (size_t i = 0; i < 3; i++) {
@@ -240,12 +240,12 @@ std::string firstDifference(const RenderTarget& actual, const Target& expected) 
             for (int x = 0; x < expected.id.width(); x++) {
                 std::string what = describe(actual, expected, actual.id.at(x, y, s), expected.id.at(x, y, s));
                 if (what.empty() && actual.stencil.at(x, y, s) != expected.stencil.at(x, y, s))
-                    what = fmt::format("stencil {} instead of {}", actual.stencil.at(x, y, s),
-                                       expected.stencil.at(x, y, s));
+                    what = formatText("stencil {} instead of {}", actual.stencil.at(x, y, s),
+                                      expected.stencil.at(x, y, s));
                 if (what.empty() && actual.depth.at(x, y, s) != expected.depth.at(x, y, s))
-                    what = fmt::format("depth {:#x} instead of {:#x}", actual.depth.at(x, y, s),
-                                       expected.depth.at(x, y, s));
-                if (!what.empty()) return fmt::format("pixel ({}, {}) sample {}: {}", x, y, s, what);
+                    what = formatText("depth {:#x} instead of {:#x}", actual.depth.at(x, y, s),
+                                      expected.depth.at(x, y, s));
+                if (!what.empty()) return formatText("pixel ({}, {}) sample {}: {}", x, y, s, what);
             }
     return "";
 }
