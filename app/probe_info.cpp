@@ -34,7 +34,7 @@ ExitCode runProbeInfo(const ProbeInfoVerb& verb) {
     const ProbeStatistics s = statisticsOf(probe, verb.threads);
     const std::vector<glm::dvec3> axes = {{1, 0, 0},  {-1, 0, 0}, {0, 1, 0},
                                           {0, -1, 0}, {0, 0, 1},  {0, 0, -1}};
-    const auto irradiance = irradianceAt(probe, axes, FragmentArithmetic::fp64, verb.threads);
+    const auto irradiance = irradianceAt(probe, axes, Arithmetic::fp64, verb.threads);
     const std::string mapping = kMappingNames[static_cast<size_t>(probe.shape.mapping)];
     if (verb.json) {
         nlohmann::ordered_json json = {{"file", verb.input.file},

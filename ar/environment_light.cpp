@@ -103,7 +103,7 @@ std::vector<ProbeLight> addEnvironmentLight(const Environment& environment, cons
             break;
         case EnvironmentLightMethod::map:
             light.kind = EnvironmentLight::Kind::map;
-            light.map = facesOf(irradianceProbe(probe, cube, FragmentArithmetic::fp64, threads), 1);
+            light.map = facesOf(irradianceProbe(probe, cube, Arithmetic::fp64, threads), 1);
             break;
         case EnvironmentLightMethod::blurred: {
             // The reflective map in world axes, blurred with a kernel as wide as a face [Karlsson2005,
@@ -111,7 +111,7 @@ std::vector<ProbeLight> addEnvironmentLight(const Environment& environment, cons
             ProbeConversion conversion;
             conversion.shape = cube;
             conversion.resampling = Resampling::area;
-            const Probe reflective = convertProbe(probe, conversion, FragmentArithmetic::fp64, threads);
+            const Probe reflective = convertProbe(probe, conversion, Arithmetic::fp64, threads);
             light.kind = EnvironmentLight::Kind::map;
             light.map = facesOf(
                 blurredDiffuseMap(reflective, cube.width, cube.width / 2.0, profile.fragment, threads), kPi);

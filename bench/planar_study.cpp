@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "numeric/door.h"
 #include "bench/passes.h"
 #include "shadows/light_samples.h"
 #include "shadows/planar_visibility.h"
@@ -82,7 +83,7 @@ struct Difference {
 };
 Difference compare(const PlanarShadow& reference, const PlanarShadow& shadow) {
     const PlanarGrid& grid = reference.grid;
-    const PlanarPasses passes = planarPasses(FragmentArithmetic::fp64);
+    const auto passes = passesIn<PlanarPasses>(Arithmetic::fp64);
     const auto width = static_cast<size_t>(grid.width);
     LitPoints points;
     points.instance.assign(width, 0);
@@ -98,7 +99,7 @@ Difference compare(const PlanarShadow& reference, const PlanarShadow& shadow) {
             for (int c = 0; c < 3; c++) points.position_m[static_cast<size_t>(c)][x] = p[c];
         }
         std::swap(row, above);
-        passes.visibility(shadow, {}, points, listed, row);
+        passes->visibility(shadow, {}, points, listed, row);
         const auto expected = [&](size_t x, int line) {
             return 1.0 - static_cast<double>(reference.shadow.at(static_cast<int>(x), line));
         };

@@ -1,4 +1,5 @@
 // The rows of etalon_bench about probes.
+#include "numeric/door.h"
 #include "bench/measure.h"
 #include "bench/passes.h"
 #include "bench/rows.h"
@@ -84,12 +85,12 @@ void addLightIrradiance(const Way& way) {
     add("irradiance-of-lights/256", way, [=](benchmark::State& state) {
         constexpr int kShownWidth = 256, kShownHeight = 128;
         const auto lights = medianCutLights(latLongProbe(), {.log2Count = kLog2Lights}).lights;
-        const LightPasses passes = lightPasses(findProfile(way.profile)->fragment);
+        const auto passes = passesIn<LightPasses>(findProfile(way.profile)->fragment);
         const Amount amount{
             .pixels = static_cast<double>(kShownWidth) * kShownHeight * static_cast<double>(lights.size()),
             .bytes_touched = size_t{kShownWidth} * kShownHeight * 3 * sizeof(double)};
         measure(state, amount, [&] {
-            return passes.irradianceOfLights(lights, {Mapping::latLong, kShownWidth, kShownHeight},
+            return passes->irradianceOfLights(lights, {Mapping::latLong, kShownWidth, kShownHeight},
                                              way.threads);
         });
     });
@@ -103,7 +104,7 @@ void addConversion(const std::string& name, const ProbeShape& from, const ProbeS
                    static_cast<size_t>(shape.height);
         };
         const Probe source = probeInput(from);
-        const FragmentArithmetic arithmetic = findProfile(way.profile)->fragment;
+        const Arithmetic arithmetic = findProfile(way.profile)->fragment;
         const Amount amount{.pixels = static_cast<double>(texels(to)),
                             .bytes_touched = (texels(from) + texels(to)) * kRadiance_bytes};
         Probe result;

@@ -2,6 +2,7 @@
 // filter.
 #include <limits>
 
+#include "numeric/door.h"
 #include "bitcheck/bit_case.h"
 #include "bitcheck/inputs.h"
 #include "probes/dominant_lights.h"
@@ -54,16 +55,16 @@ std::vector<BitPlane> medianCuts(int threads) {
             planeOf("angle", std::span<const double>(angle), kNumbersPerLight)};
 }
 
-std::vector<BitPlane> arithmeticOf(FragmentArithmetic arithmetic, int threads) {
-    const LightPasses passes = lightPasses(arithmetic);
+std::vector<BitPlane> arithmeticOf(Arithmetic arithmetic, int threads) {
+    const auto passes = passesIn<LightPasses>(arithmetic);
     Random random(22);
     Image<double> values(53, 37);
     for (double& v : values.values()) v = random.uniform(0, 2);
-    const Image<double> table = passes.summedArea(values, threads),
-                        boxes = passes.boxSums(table, 5, 3, threads);
+    const Image<double> table = passes->summedArea(values, threads),
+                        boxes = passes->boxSums(table, 5, 3, threads);
     const std::vector<ProbeLight> lights = medianCutLights(skyProbe(), {.log2Count = 4}, 1).lights;
-    const auto irradiance = passes.irradianceOfLights(lights, {Mapping::latLong, 21, 10}, threads);
-    return {planeOf("rounded", passes.roundedValues(values, threads).values(), 53),
+    const auto irradiance = passes->irradianceOfLights(lights, {Mapping::latLong, 21, 10}, threads);
+    return {planeOf("rounded", passes->roundedValues(values, threads).values(), 53),
             planeOf("table", table.values(), 53), planeOf("boxes", boxes.values(), boxes.width()),
             planeOf("irradiance", irradiance[0].values(), 21)};
 }
@@ -102,7 +103,7 @@ void addLightCases(std::vector<BitCase>& cases) {
     };
     add("median-cut", "lights of a lat-long probe by median cut", true, medianCuts);
     for (const Profile& profile : profiles())
-        if (profile.fragment != FragmentArithmetic::truth)
+        if (profile.fragment != Arithmetic::truth)
             add("arithmetic-" + std::string(profile.name), "summed-area tables, irradiance of lights", true,
                 [arithmetic = profile.fragment](int threads) { return arithmeticOf(arithmetic, threads); });
     add("dominant", "lights by brightness in a coarse image", false, [](int) { return dominant(); });

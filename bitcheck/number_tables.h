@@ -34,7 +34,4 @@ struct NumberPasses {
                                           const TextureView& latLong);
 };
 
-// Those of the active level.
-const NumberPasses& numberPasses();
-
 }  // namespace etalon

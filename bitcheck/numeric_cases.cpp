@@ -5,6 +5,7 @@
 #include "bitcheck/bit_case.h"
 #include "bitcheck/inputs.h"
 #include "bitcheck/number_tables.h"
+#include "numeric/door.h"
 #include "numeric/elementary.h"
 #include "numeric/sum.h"
 
@@ -135,9 +136,9 @@ void addNumericCases(std::vector<BitCase>& cases) {
                                           planeOf("sky", scene.environment.latLong)};
          }});
     cases.push_back({"numbers/arithmetic", "+ - * / sqrt floor min clamp in every number format", true, false,
-                     false, [](const RasterOptions&) { return numberPasses().arithmetic(tables()); }});
+                     false, [](const RasterOptions&) { return levelPasses<NumberPasses>().arithmetic(tables()); }});
     cases.push_back({"numbers/elementary", "atan2Of and powOf in lanes", true, false, false,
-                     [](const RasterOptions&) { return numberPasses().elementary(tables()); }});
+                     [](const RasterOptions&) { return levelPasses<NumberPasses>().elementary(tables()); }});
     cases.push_back({"numbers/scalar", "sinOf, cosOf, expOf", false, false, false,
                      [](const RasterOptions&) { return scalarFunctions(); }});
     cases.push_back({"numbers/sums", "sums of fixed shape", false, true, false,
@@ -145,7 +146,7 @@ void addNumericCases(std::vector<BitCase>& cases) {
     cases.push_back({"sampling/image", "filters, wrap modes, fraction bits", true, false, false,
                      [](const RasterOptions&) {
                          const Image<float> sky = skyImage(24, 12);
-                         return numberPasses().sampling(tables(), TextureView(sky));
+                         return levelPasses<NumberPasses>().sampling(tables(), TextureView(sky));
                      }});
     cases.push_back({"sampling/directions", "cube faces, seamless cube filter, lat-long", true, false, false,
                      [](const RasterOptions&) {
@@ -156,7 +157,7 @@ void addNumericCases(std::vector<BitCase>& cases) {
                              for (float& texel : face.values())
                                  texel = static_cast<float>(random.uniform(0, 4));
                          const Image<float> sky = skyImage(24, 12);
-                         return numberPasses().cubeSampling(tables(), TextureView(cube), TextureView(sky));
+                         return levelPasses<NumberPasses>().cubeSampling(tables(), TextureView(cube), TextureView(sky));
                      }});
 }
 

@@ -110,7 +110,7 @@ void addShadingCases(std::vector<BitCase>& cases) {
             return shadeScene(first, {96, 80, 4, 32}, true, options);
         });
     for (const Profile& profile : profiles()) {
-        const bool isTruth = profile.fragment == FragmentArithmetic::truth;
+        const bool isTruth = profile.fragment == Arithmetic::truth;
         const ViewSize size = isTruth ? ViewSize{24, 20, 1, 4} : ViewSize{96, 80, 1, 16};
         add("shading/" + std::string(profile.name),
             "Blinn-Phong, Lambert, checker, mirrors, environment, normals, distance", true,

@@ -123,7 +123,7 @@ void addShadowCases(std::vector<BitCase>& cases) {
     add("shadow-map/" + first, "maps of far, point and spot lights in every format", mapsOf);
     add("shadow-mask/" + first, "a mask in the image, blurred and composed", blurredMask);
     for (const Profile& profile : profiles()) {
-        const bool isTruth = profile.fragment == FragmentArithmetic::truth;
+        const bool isTruth = profile.fragment == Arithmetic::truth;
         add("shadow-filter/" + std::string(profile.name),
             "look-ups with every filter, in depths and distances",
             [&profile, isTruth](const RasterOptions& options) {

@@ -15,13 +15,14 @@
 #include "probes/light_passes.h"
 #include "probes/median_cut.h"
 #include "probes/texel_grid.h"
+#include "numeric/door.h"
 #include "numeric/text.h"
 
 namespace etalon::experiments {
 namespace {
 
 constexpr double kPi = 0x1.921fb54442d18p+1;
-constexpr FragmentArithmetic kDouble = FragmentArithmetic::fp64;
+constexpr Arithmetic kDouble = Arithmetic::fp64;
 
 // The directions of the comparison, and those of the pictures.
 constexpr ProbeShape kShown{Mapping::latLong, 64, 32}, kPicture{Mapping::latLong, 256, 128};
@@ -41,7 +42,7 @@ Probe ofHarmonics(const Probe& probe, const ProbeShape& shape) {
 
 template <int kLog2>
 Probe ofLights(const Probe& probe, const ProbeShape& shape) {
-    const auto images = lightPasses(kDouble).irradianceOfLights(
+    const auto images = passesIn<LightPasses>(kDouble)->irradianceOfLights(
         medianCutLights(probe, {.log2Count = kLog2}).lights, shape, 0);
     std::vector<glm::dvec3> values;
     for (int y = 0; y < shape.height; y++)

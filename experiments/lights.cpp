@@ -12,6 +12,7 @@
 #include "ar/image_io.h"
 #include "experiments/light_probes.h"
 #include "experiments/plot.h"
+#include "numeric/door.h"
 #include "numeric/text.h"
 #include "numeric/random.h"
 #include "probes/irradiance.h"
@@ -59,14 +60,14 @@ std::vector<glm::dvec3> valuesOf(const Image<double>& image) {
 const ProbeShape kShown = {Mapping::latLong, 64, 32};
 
 std::vector<glm::dvec3> diffuseTruth(const Probe& probe, const ProbeShape& shape) {
-    std::vector<glm::dvec3> truth = irradianceAt(probe, texelDirections(shape), FragmentArithmetic::fp64);
+    std::vector<glm::dvec3> truth = irradianceAt(probe, texelDirections(shape), Arithmetic::fp64);
     for (glm::dvec3& v : truth) v /= kPi;
     return truth;
 }
 
 std::vector<glm::dvec3> diffuseOfLights(const Probe& probe, const MedianCut& cut, const ProbeShape& shape) {
-    return valuesOf(lightPasses(FragmentArithmetic::fp64)
-                        .irradianceOfLights(medianCutLights(probe, cut).lights, shape, 0)[0]);
+    return valuesOf(passesIn<LightPasses>(Arithmetic::fp64)
+                        ->irradianceOfLights(medianCutLights(probe, cut).lights, shape, 0)[0]);
 }
 
 const char* nameOf(LongerSide side) { return side == LongerSide::angle ? "angle" : "arc"; }
@@ -238,7 +239,7 @@ void printConvergence(const std::vector<NamedProbe>& probes, const fs::path& plo
 enum Step { input, table, energies, shading, kSteps };
 constexpr const char* kStepNames[] = {"input stored", "summed-area table (cuts, places)",
                                       "energies from tables", "shading"};
-using Arithmetics = std::array<FragmentArithmetic, kSteps>;
+using Arithmetics = std::array<Arithmetic, kSteps>;
 
 Image<double> channelOf(const Image<double>& rgb, int c) {
     Image<double> out(rgb.width(), rgb.height());
@@ -248,7 +249,7 @@ Image<double> channelOf(const Image<double>& rgb, int c) {
 
 // The unweighted mean irradiance of 16 lights (angle, centroid).
 glm::dvec3 meanOf(const Probe& probe, const Arithmetics& arithmetics) {
-    const auto passes = [&](Step step) { return lightPasses(arithmetics[step]); };
+    const auto passes = [&](Step step) { return passesIn<LightPasses>(arithmetics[step]); };
     const int width = probe.shape.width, height = probe.shape.height;
     const MedianCut cut{4, LongerSide::angle, LightPlace::centroid, TexelWeight::exact};
     Image<double> weighted(width, height, 3), energy(width, height);
@@ -275,9 +276,8 @@ glm::dvec3 meanOf(const Probe& probe, const Arithmetics& arithmetics) {
 }
 
 void printHardware(const NamedProbe& n, const char* block) {
-    using enum FragmentArithmetic;
     Arithmetics exact;
-    exact.fill(fp64);
+    exact.fill(Arithmetic::fp64);
     const glm::dvec3 reference = meanOf(n.probe, exact);
     printText(
         "== {}\n| {} | R | G | B | R | G | B |\n| --- | ---: | ---: | ---: | ---: | ---: | ---: |\n"
@@ -289,14 +289,14 @@ void printHardware(const NamedProbe& n, const char* block) {
         for (int c = 0; c < 3; c++) printText(" {:+.3f} % |", 100 * (mean[c] / reference[c] - 1));
         printText("\n");
     };
-    for (const auto& [name, arithmetic] : {std::pair("r300-fp24", fp24R300), std::pair("nv40-fp16", fp16Nv40),
-                                           std::pair("nv40-fp32", fp32Nv40)}) {
+    for (const auto& [name, arithmetic] : {std::pair("r300-fp24", Arithmetic::fp24R300), std::pair("nv40-fp16", Arithmetic::fp16Nv40),
+                                           std::pair("nv40-fp32", Arithmetic::fp32Nv40)}) {
         Arithmetics all;
         all.fill(arithmetic);
         row(formatText("**{}**", name), all);
         for (size_t step = 0; step < kSteps; step++) {
             Arithmetics one = exact, others = all;
-            one[step] = arithmetic, others[step] = fp64;
+            one[step] = arithmetic, others[step] = Arithmetic::fp64;
             row(formatText("{}: only {}", name, kStepNames[step]), one);
             row(formatText("{}: all but {}", name, kStepNames[step]), others);
         }

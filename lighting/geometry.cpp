@@ -2,7 +2,8 @@
 
 #include <algorithm>
 
-#include "lighting/lighting_passes.h"
+#include "lighting/transform.h"
+#include "numeric/door.h"
 #include "numeric/check.h"
 #include "numeric/parallel.h"
 
@@ -23,7 +24,7 @@ void inTasks(size_t count, int threads, F&& body) {
 void placeAll(RasterReal real, int threads, const TransformRows& rows, const std::vector<glm::vec3>& from,
               std::vector<glm::dvec3>& to) {
     to.resize(from.size());
-    const auto transform = lightingPasses().transformPoints;
+    const auto transform = levelPasses<TransformPasses>().transformPoints;
     inTasks(from.size(), threads, [&](size_t begin, size_t count) {
         transform(real, rows, std::span(from).subspan(begin, count), std::span(to).subspan(begin, count));
     });
@@ -68,7 +69,7 @@ std::vector<PlacedMesh> placeMeshes(const SurfaceScene& scene, RasterReal vertex
 void toClipSpace(const PlacedMesh& placed, const View& view, RasterReal vertexReal, int threads,
                  UninitializedVector<ClipVertex>& vertices) {
     vertices.resize(placed.positions.size());
-    const auto project = lightingPasses().projectPoints;
+    const auto project = levelPasses<TransformPasses>().projectPoints;
     inTasks(vertices.size(), threads, [&](size_t begin, size_t count) {
         project(vertexReal, view.worldToClip, std::span(placed.positions).subspan(begin, count),
                 std::span(vertices).subspan(begin, count));

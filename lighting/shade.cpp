@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <mutex>
 
-#include "lighting/lighting_passes.h"
+#include "lighting/shading_passes.h"
+#include "numeric/door.h"
 #include "numeric/check.h"
 #include "numeric/parallel.h"
 #include "probes/mapping_passes.h"
@@ -37,7 +38,7 @@ Tiles tilesOf(const ShadeJob& job) {
 // Calls visit(shader, number, rectangle) for every tile, with one shader per thread at work.
 template <class Visit>
 void forEachTile(const ShadeJob& job, const Visit& visit) {
-    const ShadingPasses passes = shadingPasses(job.profile->fragment);
+    const auto passes = passesIn<ShadingPasses>(job.profile->fragment);
     const Tiles tiles = tilesOf(job);
     std::mutex mutex;
     std::vector<std::unique_ptr<TileShader>> idle;
@@ -50,7 +51,7 @@ void forEachTile(const ShadeJob& job, const Visit& visit) {
                 idle.pop_back();
             }
         }
-        if (!shader) shader = passes.makeTileShader(job);
+        if (!shader) shader = passes->makeTileShader(job);
         const int x0 = static_cast<int>(t % tiles.columns) * job.tileSize,
                   y0 = static_cast<int>(t / tiles.columns) * job.tileSize;
         visit(*shader, t,
@@ -118,7 +119,7 @@ std::vector<VertexRadiance> lightVerticesOf(const ShadeJob& job,
         const SurfaceMaterial& material = job.scene->materials[job.scene->instances[i].material];
         parallelFor((count + kVerticesPerTask - 1) / kVerticesPerTask, job.threads, [&](size_t task) {
             const size_t begin = task * kVerticesPerTask;
-            lightingPasses().lightVertices(*job.profile, *job.scene, material, placed, job.view->eye, begin,
+            levelPasses<VertexLightingPasses>().light(*job.profile, *job.scene, material, placed, job.view->eye, begin,
                                            std::min(kVerticesPerTask, count - begin),
                                            occlusion.empty() ? nullptr : &occlusion[i], radiance[i]);
         });
@@ -131,7 +132,7 @@ CubeMap<float> environmentCube(const SurfaceEnvironment& environment, const Prof
     options.filter = profile.textureFilter;
     options.fractionBits = profile.textureFractionBits;
     const int size = std::max(1, environment.latLong.width() / 4);
-    return mappingPasses(profile.fragment).cubeFromLatLong(environment.latLong, size, options, threads);
+    return passesIn<MappingPasses>(profile.fragment)->cubeFromLatLong(environment.latLong, size, options, threads);
 }
 
 }  // namespace etalon

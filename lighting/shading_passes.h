@@ -1,4 +1,4 @@
-// The shading passes, once per fragment arithmetic (raster/fragment_numbers.h).
+// The shading passes.
 #pragma once
 
 #include <memory>
@@ -21,8 +21,5 @@ class TileShader {
 struct ShadingPasses {
     std::unique_ptr<TileShader> (*makeTileShader)(const ShadeJob& job);
 };
-
-// Those of an arithmetic.
-ShadingPasses shadingPasses(FragmentArithmetic arithmetic);
 
 }  // namespace etalon

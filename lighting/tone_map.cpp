@@ -1,6 +1,6 @@
 #include "lighting/tone_map.h"
 
-#include "lighting/lighting_passes.h"
+#include "numeric/door.h"
 #include "numeric/check.h"
 #include "numeric/format.h"
 
@@ -13,7 +13,7 @@ double exposureScale(double stops) {
 }
 
 Image<uint8_t> toneMap(const Image<float>& radiance, ToneMap operation, double exposureStops, int threads) {
-    return lightingPasses().toneMap(radiance, operation, exposureStops, threads);
+    return levelPasses<ToneMapPasses>().toneMap(radiance, operation, exposureStops, threads);
 }
 
 }  // namespace etalon

@@ -77,6 +77,12 @@ Image<uint8_t> toneMap(const Image<float>& radiance, ToneMap operation, double e
     });
     return bytes;
 }
+struct ToneMapPasses {
+    // toneMap
+    Image<uint8_t> (*toneMap)(const Image<float>& radiance, ToneMap operation, double exposureStops,
+                              int threads);
+};
+
 // The same in the default profile: float arithmetic in lanes.
 Image<uint8_t> toneMap(const Image<float>& radiance, ToneMap operation, double exposureStops,
                        int threads = 0);

@@ -1,5 +1,6 @@
 #include "lighting/transform.h"
 
+#include "numeric/door.h"
 #include "numeric/kernel_types.h"
 #include "numeric/number_lanes.h"
 
@@ -44,8 +45,6 @@ void transformIn(RasterReal real, const TransformRows& rows, std::span<const Poi
         transformAll<double>(rows, from, write);
 }
 
-}  // namespace
-
 void transformPoints(RasterReal real, const TransformRows& rows, std::span<const glm::vec3> from,
                      std::span<glm::dvec3> to) {
     transformIn(real, rows, from, [&](size_t i, const ClipVertex& p) { to[i] = {p.x, p.y, p.z}; });
@@ -55,5 +54,11 @@ void projectPoints(RasterReal real, const TransformRows& rows, std::span<const g
                    std::span<ClipVertex> to) {
     transformIn(real, rows, from, [&](size_t i, const ClipVertex& p) { to[i] = p; });
 }
+
+}  // namespace
+
+template <>
+constexpr TransformPasses kPassesOver<TransformPasses, void> = {transformPoints, projectPoints};
+template const TransformPasses& ETALON_LEVEL::passesOf<TransformPasses>();
 
 }  // namespace etalon

@@ -1,6 +1,7 @@
 #include "lighting/vertex_lighting.h"
 
 #include "lighting/surface_lighting.h"
+#include "numeric/door.h"
 #include "numeric/number_lanes.h"
 
 namespace etalon {
@@ -59,8 +60,6 @@ void lightIn(const Profile& profile, const SurfaceScene& scene, const SurfaceMat
     });
 }
 
-}  // namespace
-
 void lightVertices(const Profile& profile, const SurfaceScene& scene, const SurfaceMaterial& material,
                    const PlacedMesh& placed, const glm::dvec3& eye, size_t begin, size_t count,
                    const VertexOcclusion* occlusion, VertexRadiance& radiance) {
@@ -69,5 +68,11 @@ void lightVertices(const Profile& profile, const SurfaceScene& scene, const Surf
     else
         lightIn<double>(profile, scene, material, placed, eye, begin, count, occlusion, radiance);
 }
+
+}  // namespace
+
+template <>
+constexpr VertexLightingPasses kPassesOver<VertexLightingPasses, void> = {lightVertices};
+template const VertexLightingPasses& ETALON_LEVEL::passesOf<VertexLightingPasses>();
 
 }  // namespace etalon

@@ -1,6 +1,5 @@
 // Per-vertex (Gouraud) lighting: what the lights reflect from each vertex, in the profile's vertex
-// arithmetic, for fragments to interpolate. Compiled once per level; callers go through
-// lighting/lighting_passes.h.
+// arithmetic, for fragments to interpolate.
 #pragma once
 
 #include <array>
@@ -23,10 +22,12 @@ struct VertexRadiance {
     std::array<Side, 2> sides;
 };
 
-// In the vertex arithmetic of the profile: lights vertices begin .. begin + count - 1 as seen from `eye`; the
-// sides have the size of the mesh. occlusion: of its vertices; null: all are open.
-void lightVertices(const Profile& profile, const SurfaceScene& scene, const SurfaceMaterial& material,
-                   const PlacedMesh& placed, const glm::dvec3& eye, size_t begin, size_t count,
-                   const VertexOcclusion* occlusion, VertexRadiance& radiance);
+struct VertexLightingPasses {
+    // In the vertex arithmetic of the profile: lights vertices begin .. begin + count - 1 as seen from `eye`;
+    // the sides have the size of the mesh. occlusion: of its vertices; null: all are open.
+    void (*light)(const Profile& profile, const SurfaceScene& scene, const SurfaceMaterial& material,
+                  const PlacedMesh& placed, const glm::dvec3& eye, size_t begin, size_t count,
+                  const VertexOcclusion* occlusion, VertexRadiance& radiance);
+};
 
 }  // namespace etalon

@@ -12,6 +12,9 @@ namespace etalon {
 enum class Rounding {
     nearestEven,  // the nearer one; halfway, the one with the even significand
     towardZero,   // the one of smaller magnitude (truncation)
+    nearestAway,  // the nearer one; halfway, the one of larger magnitude
+    up,           // the one that is not smaller
+    down,         // the one that is not larger; an exact difference of equal numbers is -0
 };
 
 // What happens to results below the smallest normal number.
@@ -25,8 +28,9 @@ enum class Subnormals {
 
 // What happens to results beyond the largest finite number.
 enum class Overflow {
-    infinity,  // as in IEEE 754: infinity with nearestEven, the largest finite number with towardZero;
-               // operations on infinities, division by zero and NaN as in IEEE 754
+    infinity,  // as in IEEE 754: infinity where the rounding leads there (nearestEven, nearestAway; up above
+               // zero, down below), else the largest finite number; operations on infinities, division by
+               // zero and NaN as in IEEE 754
     saturate,  // the format has neither infinities nor NaN: every result that would be infinite is the
                // largest finite number with its sign, every result that would be NaN is +0
 };
@@ -62,7 +66,7 @@ constexpr double smallestPositive(Format f) {
                                             : smallestNormal(f);
 }
 // The distance from 1 to the next larger number. A result in the normal range is off by at most half of it
-// (nearestEven), or by less than all of it (towardZero), relative to the exact result.
+// (nearestEven, nearestAway), or by less than all of it (the others), relative to the exact result.
 constexpr double epsilonOf(Format f) { return powerOfTwo(1 - f.significandBits); }
 
 // Largest significand and exponents for which Rounded is exact; rounded.h derives the first. The second keeps
@@ -78,6 +82,10 @@ constexpr bool isSupported(Format f) {
            f.minExponent >= -kMaxFormatExponent && f.minExponent <= 0 &&
            f.maxExponent <= kMaxFormatExponent && f.maxExponent >= f.significandBits - 1;
 }
+
+// The NaN that every operation in a format returns, so that its bits do not depend on the machine (0/0 has a
+// sign on x86 and none on AArch64).
+inline constexpr double kCanonicalNan = std::bit_cast<double>(int64_t{0x7ff8000000000000});
 
 // IEEE 754 binary32: `float` of every CPU that this project builds for. All of it is documented.
 inline constexpr Format kFp32{24, -126, 127, Rounding::nearestEven, Subnormals::keep, Overflow::infinity};

@@ -4,7 +4,6 @@
 #include <atomic>
 
 #include "numeric/check.h"
-#include "numeric/levels.h"
 
 #if defined(__x86_64__)
 #include <cpuid.h>
@@ -56,10 +55,24 @@ bool runsHere(IsaLevel level) {
 }
 
 std::vector<IsaLevel> findUsableLevels() {
-    std::vector<IsaLevel> levels;
-#define ETALON_ADD_LEVEL(name) levels.push_back(IsaLevel::name);
-    ETALON_FOR_EACH_LEVEL(ETALON_ADD_LEVEL)
-#undef ETALON_ADD_LEVEL
+    // From narrow to wide.
+    std::vector<IsaLevel> levels = {
+#if defined(ETALON_HAS_scalar)
+        IsaLevel::scalar,
+#endif
+#if defined(ETALON_HAS_neon)
+        IsaLevel::neon,
+#endif
+#if defined(ETALON_HAS_v2)
+        IsaLevel::v2,
+#endif
+#if defined(ETALON_HAS_v3)
+        IsaLevel::v3,
+#endif
+#if defined(ETALON_HAS_v4)
+        IsaLevel::v4,
+#endif
+    };
     std::erase_if(levels, [](IsaLevel level) { return !runsHere(level); });
     ETALON_CHECK(!levels.empty(), "this processor runs no level that is built");
     return levels;

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "numeric/check.h"
+#include "numeric/emulated_format.h"
 #include "numeric/fp_environment.h"
 
 namespace etalon {
@@ -34,9 +35,11 @@ void runItems(size_t count, int threads, const std::function<void(size_t)>& body
     std::atomic<size_t> next{0};
     std::mutex mutex;
     std::exception_ptr failure;
+    const EmulatedFormat format = emulatedFormat;
     const auto work = [&] {
         try {
             requireDefaultFpEnvironment();
+            const EmulatedScope scope(format);
             for (size_t i = next++; i < count; i = next++) body(i);
         } catch (...) {
             const std::lock_guard lock(mutex);
@@ -63,11 +66,13 @@ void runItems(size_t count, int threads, const std::function<void(size_t)>& body
             allowed.emplace(tbb::global_control::max_allowed_parallelism, static_cast<size_t>(threads));
         }
     }
+    const EmulatedFormat format = emulatedFormat;
     tbb::task_arena arena(threads);
     arena.execute([&] {
         tbb::parallel_for(tbb::blocked_range<size_t>(0, count, 1),
                           [&](const tbb::blocked_range<size_t>& range) {
                               requireDefaultFpEnvironment();
+                              const EmulatedScope scope(format);
                               for (size_t i = range.begin(); i != range.end(); i++) body(i);
                           });
     });

@@ -55,10 +55,6 @@ struct DoubleBits<Lanes<double, N>> {
     static Bits minusOneWhere(Mask<double, N> c) { return c.m; }
 };
 
-// The NaN that every operation of Rounded returns, so that its bits do not depend on the machine (0/0 has
-// a sign on x86 and none on AArch64).
-inline constexpr double kCanonicalNan = std::bit_cast<double>(int64_t{0x7ff8000000000000});
-
 // f(x...) for x of one type D, double or Lanes<double, N>. Lanes that fill several vector registers are
 // handed to f one register at a time: g++ 12 turns selections over wider vectors into code per lane, 3 times
 // slower.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "numeric/door.h"
 #include "numeric/check.h"
 #include "probes/mapping_passes.h"
 #include "probes/texel_grid.h"
@@ -57,7 +58,7 @@ glm::dmat3 turnBetween(const glm::dmat3& from, const glm::dmat3& to) {
 
 }  // namespace
 
-Probe convertProbe(const Probe& source, const ProbeConversion& conversion, FragmentArithmetic arithmetic,
+Probe convertProbe(const Probe& source, const ProbeConversion& conversion, Arithmetic arithmetic,
                    int threads) {
     Probe result;
     convertProbe(result, source, conversion, arithmetic, threads);
@@ -65,7 +66,7 @@ Probe convertProbe(const Probe& source, const ProbeConversion& conversion, Fragm
 }
 
 void convertProbe(Probe& result, const Probe& source, const ProbeConversion& conversion,
-                  FragmentArithmetic arithmetic, int threads) {
+                  Arithmetic arithmetic, int threads) {
     ETALON_CHECK(&result != &source, "the result is the source");
     checkProbe(source);
     checkShape(conversion.shape);
@@ -100,7 +101,7 @@ void convertProbe(Probe& result, const Probe& source, const ProbeConversion& con
         fitLayers(result.valid, conversion.shape, 1);
     else
         result.valid.clear();
-    mappingPasses(arithmetic).convertImages(job, result);
+    passesIn<MappingPasses>(arithmetic)->convertImages(job, result);
 
     const auto isWhole = [](const Image<uint8_t>& layer) {
         return std::all_of(layer.values().begin(), layer.values().end(), [](uint8_t v) { return v != 0; });
@@ -131,11 +132,11 @@ CubeMap<float> cubeMapOf(Probe probe) {
 }
 
 Image<float> latLongFromCube(const CubeMap<float>& cube, int width, int height,
-                             const LatLongFromCube& options, FragmentArithmetic arithmetic, int threads) {
+                             const LatLongFromCube& options, Arithmetic arithmetic, int threads) {
     ETALON_CHECK(cube.channels() == 3 && width >= 1 && height >= 1, "{} channels, {}x{}", cube.channels(),
                  width, height);
     Image<float> latLong(width, height, 3);
-    mappingPasses(arithmetic).latLongFromCube(cube, options, threads, latLong);
+    passesIn<MappingPasses>(arithmetic)->latLongFromCube(cube, options, threads, latLong);
     return latLong;
 }
 

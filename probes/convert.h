@@ -48,12 +48,12 @@ struct ProbeConversion {
 // shape or orientation, at the same position. `valid` of the result is empty if every texel is valid. Neither
 // threads nor lanes change a bit. Sizes of the source are whole numbers of the arithmetic (raster/sampler.h).
 Probe convertProbe(const Probe& source, const ProbeConversion& conversion,
-                   FragmentArithmetic arithmetic = FragmentArithmetic::fp32, int threads = 0);
+                   Arithmetic arithmetic = Arithmetic::fp32, int threads = 0);
 
 // The same into a probe, whose images are written over where they have the right sizes: repeated conversions
 // need no new memory. The result is not the source.
 void convertProbe(Probe& result, const Probe& source, const ProbeConversion& conversion,
-                  FragmentArithmetic arithmetic = FragmentArithmetic::fp32, int threads = 0);
+                  Arithmetic arithmetic = Arithmetic::fp32, int threads = 0);
 
 // A probe from six faces or one image, without distance; and the faces of a probe of the mapping cube.
 Probe probeOf(const CubeMap<float>& cube);
@@ -76,6 +76,6 @@ struct LatLongFromCube {
 // in the arithmetic, as a GPU computes them.
 Image<float> latLongFromCube(const CubeMap<float>& cube, int width, int height,
                              const LatLongFromCube& options = {},
-                             FragmentArithmetic arithmetic = FragmentArithmetic::fp32, int threads = 0);
+                             Arithmetic arithmetic = Arithmetic::fp32, int threads = 0);
 
 }  // namespace etalon

@@ -18,6 +18,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "numeric/emulated.h"
 #include "numeric/format.h"
 #include "numeric/kernel_types.h"
 #include "numeric/number_lanes.h"
@@ -30,20 +31,28 @@ namespace etalon {
 inline constexpr double kSmallestFloatTerm = 0x1p-50;
 inline constexpr double kFluxScale = 0x1p-3;
 
-// The limits of flux.glsl for a number type; doubles and truth have no floor.
+// The limits of flux.glsl for a number type; only float has a floor.
 template <class T>
 struct TermLimits {
-    static constexpr double smallest = 0, largest = std::numeric_limits<double>::max();
+    static constexpr double smallest = 0;
+    static double largest() { return std::numeric_limits<double>::max(); }
 };
 template <>
 struct TermLimits<float> {
-    static constexpr double smallest = kSmallestFloatTerm, largest = std::numeric_limits<float>::max();
+    static constexpr double smallest = kSmallestFloatTerm;
+    static double largest() { return std::numeric_limits<float>::max(); }
 };
 template <int N>
 struct TermLimits<Lanes<float, N>> : TermLimits<float> {};
 template <Format F, class D>
 struct TermLimits<Rounded<F, D>> {
-    static constexpr double smallest = 0, largest = largestFinite(F);
+    static constexpr double smallest = 0;
+    static double largest() { return largestFinite(F); }
+};
+template <class D>
+struct TermLimits<Emulated<D>> {
+    static constexpr double smallest = 0;
+    static double largest() { return emulatedFormat.largest; }
 };
 
 // How numbers of the arithmetic T are kept between steps of a sum, exactly: one scalar per lane.

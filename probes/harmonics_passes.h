@@ -1,10 +1,9 @@
-// Spherical harmonics of a probe, once per arithmetic (raster/fragment_numbers.h).
+// Spherical harmonics of a probe.
 #pragma once
 
 #include <span>
 
 #include "probes/spherical_harmonics.h"
-#include "raster/profile.h"
 
 namespace etalon {
 
@@ -15,7 +14,9 @@ struct HarmonicsPasses {
                                         std::span<const glm::dvec3> directions, int threads);
 };
 
-// Those of an arithmetic.
-HarmonicsPasses harmonicsPasses(FragmentArithmetic arithmetic);
+// Of a lat-long probe, in double and about the image's axis (probes/latlong_moments.cpp).
+struct LatLongHarmonicsPasses {
+    SphericalHarmonics (*project)(const Probe& probe, int degree, int threads);
+};
 
 }  // namespace etalon

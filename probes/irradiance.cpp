@@ -1,15 +1,17 @@
 #include "probes/irradiance.h"
 
+#include "numeric/door.h"
 #include "numeric/check.h"
 #include "probes/harmonics_lobes.h"
 #include "probes/irradiance_passes.h"
 #include "probes/texel_grid.h"
+#include "raster/blur.h"
 
 namespace etalon {
 
 std::vector<glm::dvec3> irradianceAt(const Probe& probe, std::span<const glm::dvec3> normals,
-                                     FragmentArithmetic arithmetic, int threads) {
-    return irradiancePasses(arithmetic).irradianceAt(probe, normals, threads);
+                                     Arithmetic arithmetic, int threads) {
+    return passesIn<IrradiancePasses>(arithmetic)->irradianceAt(probe, normals, threads);
 }
 
 std::vector<glm::dvec3> texelDirections(const ProbeShape& shape) {
@@ -38,26 +40,26 @@ Probe probeOfValues(const ProbeShape& shape, std::span<const glm::dvec3> values,
     return result;
 }
 
-Probe irradianceProbe(const Probe& probe, const ProbeShape& shape, FragmentArithmetic arithmetic,
+Probe irradianceProbe(const Probe& probe, const ProbeShape& shape, Arithmetic arithmetic,
                       int threads) {
     return probeOfValues(shape, irradianceAt(probe, texelDirections(shape), arithmetic, threads), probe);
 }
 
 Probe irradianceProbe(const SphericalHarmonics& radiance, const ProbeShape& shape, const Probe& like,
-                      FragmentArithmetic arithmetic, int threads) {
+                      Arithmetic arithmetic, int threads) {
     return probeOfValues(
         shape,
         evaluateHarmonics(irradianceOfHarmonics(radiance), texelDirections(shape), arithmetic, threads),
         like);
 }
 
-Probe blurredDiffuseMap(const Probe& cube, int radius, double sigma_px, FragmentArithmetic arithmetic,
+Probe blurredDiffuseMap(const Probe& cube, int radius, double sigma_px, Arithmetic arithmetic,
                         int threads) {
     checkProbe(cube);
     ETALON_CHECK(cube.shape.mapping == Mapping::cube, "mapping {}", static_cast<int>(cube.shape.mapping));
     Probe map = cube;
     for (Image<float>& face : map.radiance)
-        face = irradiancePasses(arithmetic).blur(face, radius, sigma_px, threads);
+        face = passesIn<BlurPasses>(arithmetic)->blur(face, radius, sigma_px, threads);
     map.distance_m.clear();
     return map;
 }

@@ -30,7 +30,7 @@ struct IrradianceKernel {
 // an odd last one kept as it is. The midpoint rule of the texels remains: its error falls with the square of
 // their size.
 std::vector<glm::dvec3> irradianceAt(const Probe& probe, std::span<const glm::dvec3> normals,
-                                     FragmentArithmetic arithmetic, int threads = 0);
+                                     Arithmetic arithmetic, int threads = 0);
 inline constexpr int kIrradianceRun = 32;
 
 // Its largest relative error (arithmetic of the sum, of directions and of solid angles, not the midpoint
@@ -47,15 +47,15 @@ Probe probeOfValues(const ProbeShape& shape, std::span<const glm::dvec3> values,
 
 // Irradiance over normals as a probe, exact as irradianceAt() and from the radiance's spherical harmonics
 // (degree 2: within 1 % of the mean for most radiance [RamamoorthiHanrahan2001]). Values are stored as float.
-Probe irradianceProbe(const Probe& probe, const ProbeShape& shape, FragmentArithmetic arithmetic,
+Probe irradianceProbe(const Probe& probe, const ProbeShape& shape, Arithmetic arithmetic,
                       int threads = 0);
 Probe irradianceProbe(const SphericalHarmonics& radiance, const ProbeShape& shape, const Probe& like,
-                      FragmentArithmetic arithmetic, int threads = 0);
+                      Arithmetic arithmetic, int threads = 0);
 
 // The diffuse map of [Karlsson2005, Sec. 3.1.5]: the reflective cube map with each face blurred on its own
 // (raster/blur.h). It stands for irradiance / pi, but is none: each face sees only itself. The probe is a
 // cube.
-Probe blurredDiffuseMap(const Probe& cube, int radius, double sigma_px, FragmentArithmetic arithmetic,
+Probe blurredDiffuseMap(const Probe& cube, int radius, double sigma_px, Arithmetic arithmetic,
                         int threads = 0);
 
 }  // namespace etalon

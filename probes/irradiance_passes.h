@@ -1,10 +1,9 @@
-// Irradiance of a probe, once per arithmetic (raster/fragment_numbers.h).
+// Irradiance of a probe.
 #pragma once
 
 #include <span>
 
 #include "probes/irradiance.h"
-#include "raster/profile.h"
 
 namespace etalon {
 
@@ -12,11 +11,6 @@ struct IrradiancePasses {
     // probes/irradiance.h
     std::vector<glm::dvec3> (*irradianceAt)(const Probe& probe, std::span<const glm::dvec3> normals,
                                             int threads);
-    // raster/blur.h
-    Image<float> (*blur)(const Image<float>& image, int radius, double sigma_px, int threads);
 };
-
-// Those of an arithmetic.
-IrradiancePasses irradiancePasses(FragmentArithmetic arithmetic);
 
 }  // namespace etalon

@@ -1,6 +1,7 @@
 #include "probes/latlong.h"
 
 #include "probes/mapping_passes.h"
+#include "numeric/door.h"
 #include "numeric/check.h"
 
 namespace etalon {
@@ -33,7 +34,7 @@ LatLongGrid::LatLongGrid(int width, int height) {
 
 CubeMap<float> cubeFromLatLong(const Image<float>& latLong, int size, const CubeFromLatLong& options,
                                int threads) {
-    return mappingPasses(FragmentArithmetic::fp32).cubeFromLatLong(latLong, size, options, threads);
+    return passesIn<MappingPasses>(Arithmetic::fp32)->cubeFromLatLong(latLong, size, options, threads);
 }
 
 }  // namespace etalon

@@ -1,4 +1,4 @@
-// Passes between probes and lights, once per arithmetic (raster/fragment_numbers.h).
+// Passes between probes and lights.
 #pragma once
 
 #include <span>
@@ -6,7 +6,6 @@
 
 #include "probes/probe.h"
 #include "probes/probe_light.h"
-#include "raster/profile.h"
 
 namespace etalon {
 
@@ -19,8 +18,5 @@ struct LightPasses {
     std::vector<Image<double>> (*irradianceOfLights)(std::span<const ProbeLight> lights,
                                                      const ProbeShape& shape, int threads);
 };
-
-// Those of an arithmetic.
-LightPasses lightPasses(FragmentArithmetic arithmetic);
 
 }  // namespace etalon

@@ -1,9 +1,8 @@
-// Passes between the mappings of a probe, once per arithmetic (raster/fragment_numbers.h).
+// Passes between the mappings of a probe.
 #pragma once
 
 #include "probes/conversion_job.h"
 #include "probes/latlong.h"
-#include "raster/profile.h"
 
 namespace etalon {
 
@@ -16,8 +15,5 @@ struct MappingPasses {
     void (*latLongFromCube)(const CubeMap<float>& cube, const LatLongFromCube& options, int threads,
                             Image<float>& latLong);
 };
-
-// Those of an arithmetic.
-MappingPasses mappingPasses(FragmentArithmetic arithmetic);
 
 }  // namespace etalon

@@ -4,11 +4,12 @@
 #include <cmath>
 #include <limits>
 
+#include "numeric/door.h"
+#include "probes/energy_passes.h"
 #include "numeric/check.h"
 #include "numeric/elementary.h"
 #include "numeric/parallel.h"
 #include "probes/latlong.h"
-#include "probes/probe_passes.h"
 #include "probes/summed_area.h"
 
 namespace etalon {
@@ -158,7 +159,7 @@ LightsOfProbe lightsIn(const Image<float>& radiance, const Probe& probe, const E
         const TexelRegion& r = regions[i];
         ProbeLight& light = result.lights[i];
         light.region = r;
-        const RegionSums sums = probePasses().energy.regionSums(radiance, r, weights.data());
+        const RegionSums sums = levelPasses<EnergyPasses>().regionSums(radiance, r, weights.data());
         light.energy = sums.energy;
         uncounted[i] = sums.uncountedValues;
         for (int y = r.y0; y < r.y1; y++)

@@ -2,10 +2,10 @@
 
 #include <cmath>
 
+#include "numeric/door.h"
 #include "numeric/check.h"
 #include "probes/harmonics_passes.h"
 #include "probes/harmonics_rotation.h"
-#include "probes/probe_passes.h"
 
 namespace etalon {
 
@@ -59,24 +59,24 @@ glm::dvec3 evaluate(const SphericalHarmonics& harmonics, const glm::dvec3& direc
     return kernel.sumOfHarmonics(direction, harmonics.degree);
 }
 
-SphericalHarmonics projectHarmonics(const Probe& probe, int degree, FragmentArithmetic arithmetic,
+SphericalHarmonics projectHarmonics(const Probe& probe, int degree, Arithmetic arithmetic,
                                     int threads) {
-    return harmonicsPasses(arithmetic).project(probe, degree, threads);
+    return passesIn<HarmonicsPasses>(arithmetic)->project(probe, degree, threads);
 }
 
 SphericalHarmonics projectHarmonics(const Probe& probe, int degree, int threads) {
     if (probe.shape.mapping != Mapping::latLong)
-        return projectHarmonics(probe, degree, FragmentArithmetic::fp64, threads);
+        return projectHarmonics(probe, degree, Arithmetic::fp64, threads);
     // The third axis of the sums is the image's vertical axis: they see directions (z, x, y) for (x, y, z).
-    const SphericalHarmonics aboutVertical = probePasses().projectLatLong(probe, degree, threads);
+    const SphericalHarmonics aboutVertical = levelPasses<LatLongHarmonicsPasses>().project(probe, degree, threads);
     const glm::dmat3 unturned(glm::dvec3(0, 0, 1), glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0));
     return rotateHarmonics(aboutVertical, probe.rotation * unturned);
 }
 
 std::vector<glm::dvec3> evaluateHarmonics(const SphericalHarmonics& harmonics,
                                           std::span<const glm::dvec3> directions,
-                                          FragmentArithmetic arithmetic, int threads) {
-    return harmonicsPasses(arithmetic).evaluate(harmonics, directions, threads);
+                                          Arithmetic arithmetic, int threads) {
+    return passesIn<HarmonicsPasses>(arithmetic)->evaluate(harmonics, directions, threads);
 }
 
 }  // namespace etalon

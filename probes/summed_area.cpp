@@ -1,11 +1,12 @@
 #include "probes/summed_area.h"
 
+#include "numeric/door.h"
+#include "probes/energy_passes.h"
 #include <sys/mman.h>
 
 #include <cstdlib>
 #include <new>
 
-#include "probes/probe_passes.h"
 
 namespace etalon {
 
@@ -33,7 +34,7 @@ EnergyTable::EnergyTable(const Image<float>& radiance, std::span<const double> r
         radiance.channels() == 3 && !radiance.empty() && rowWeights.size() == static_cast<size_t>(height_),
         "{}x{} texels with {} channels, {} weights", width_, height_, radiance.channels(), rowWeights.size());
     const auto width = static_cast<size_t>(width_);
-    const EnergyPasses& passes = probePasses().energy;
+    const EnergyPasses& passes = levelPasses<EnergyPasses>();
     const int bands = (height_ + kBandRows - 1) / kBandRows;
     parallelFor(static_cast<size_t>(bands), threads, [&](size_t band) {
         const int top = static_cast<int>(band) * kBandRows, bottom = std::min(height_, top + kBandRows);

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "numeric/check.h"
+#include "numeric/door.h"
 #include "numeric/elementary.h"
-#include "raster/raster_passes.h"
 
 namespace etalon {
 
@@ -33,7 +33,7 @@ std::vector<double> gaussianWeights(int radius, double sigma) {
 }
 
 Image<float> blurGaussian(const Image<float>& image, int radius, double sigma, int threads) {
-    return rasterPasses().blurGaussian(image, radius, sigma, threads);
+    return passesIn<BlurPasses>(Arithmetic::fp32)->blur(image, radius, sigma, threads);
 }
 
 }  // namespace etalon

@@ -107,6 +107,11 @@ Image<float> blurGaussian(const Image<float>& image, int radius, double sigma, i
     return result;
 }
 
+struct BlurPasses {
+    // blurGaussian
+    Image<float> (*blur)(const Image<float>& image, int radius, double sigma, int threads);
+};
+
 // The same in the default profile: float arithmetic in lanes.
 Image<float> blurGaussian(const Image<float>& image, int radius, double sigma, int threads = 0);
 

@@ -6,28 +6,16 @@
 #include <string_view>
 #include <vector>
 
+#include "numeric/arithmetic.h"
 #include "raster/render_target.h"
 #include "raster/sampler.h"
 
 namespace etalon {
 
-// The number type that fragments are shaded in.
-enum class FragmentArithmetic : uint8_t {
-    truth,
-    fp64,
-    fp32,
-    fp32Flush,
-    fp32Nv40,
-    fp16,
-    fp16Nv40,
-    bf16,
-    fp24R300
-};
-
 struct Profile {
     std::string_view name;
     std::string_view meaning;  // one line, with what is documented and what is assumed
-    FragmentArithmetic fragment = FragmentArithmetic::fp32;
+    Arithmetic fragment;  // fragments and texels
     RasterReal vertex = RasterReal::fp32;  // vertex transforms and depth
     DepthFormat depth = DepthFormat::d32f;
     DepthRounding depthRounding = DepthRounding::exact;

@@ -4,9 +4,9 @@
 #include <map>
 #include <mutex>
 
-#include "numeric/isa.h"
-#include "raster/raster_passes.h"
+#include "numeric/door.h"
 #include "raster/setup.h"
+#include "raster/tile.h"
 
 namespace etalon {
 
@@ -21,7 +21,7 @@ class RasterScratch {
     std::unique_ptr<TileRasterizer> take() {
         const std::lock_guard lock(mutex_);
         auto& idle = idle_[activeIsa()];
-        if (idle.empty()) return rasterPasses().makeTileRasterizer();
+        if (idle.empty()) return levelPasses<TilePasses>().makeRasterizer();
         auto rasterizer = std::move(idle.back());
         idle.pop_back();
         return rasterizer;

@@ -6,6 +6,7 @@
 #include "numeric/check.h"
 #include "numeric/parallel.h"
 #include "raster/raster_scratch.h"
+#include "raster/vertex_stage.h"
 
 namespace etalon {
 namespace {
@@ -82,7 +83,7 @@ class Rasterization {
         scratch_.outcodes.resize(count);
         const std::vector<Part> parts =
             cut(draws_, kVerticesPerTask, [](const Draw& draw) { return draw.vertices.size(); });
-        const auto project = rasterPasses().projectVertices;
+        const auto project = levelPasses<VertexPasses>().project;
         parallelFor(parts.size(), options_.threads, [&](size_t p) {
             const Part& part = parts[p];
             const size_t first = inputs_[part.draw].firstVertex + part.first, size = part.last - part.first;

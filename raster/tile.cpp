@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "numeric/door.h"
 #include "raster/block_depth.h"
 #include "raster/depth.h"
 #include "raster/setup.h"
@@ -662,8 +663,12 @@ GroupMask TileRasterizerOfLevel::testStencil(const Piece& piece, const Group& gr
     return passed;
 }
 
+std::unique_ptr<TileRasterizer> makeTileRasterizer() { return std::make_unique<TileRasterizerOfLevel>(); }
+
 }  // namespace
 
-std::unique_ptr<TileRasterizer> makeTileRasterizer() { return std::make_unique<TileRasterizerOfLevel>(); }
+template <>
+constexpr TilePasses kPassesOver<TilePasses, void> = {makeTileRasterizer};
+template const TilePasses& ETALON_LEVEL::passesOf<TilePasses>();
 
 }  // namespace etalon

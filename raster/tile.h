@@ -31,7 +31,8 @@ class TileRasterizer {
                      std::span<const uint32_t> triangles) = 0;
 };
 
-// Compiled once per level; callers go through raster/raster_passes.h.
-std::unique_ptr<TileRasterizer> makeTileRasterizer();
+struct TilePasses {
+    std::unique_ptr<TileRasterizer> (*makeRasterizer)();
+};
 
 }  // namespace etalon

@@ -1,8 +1,10 @@
 #include "raster/vertex_stage.h"
 
+#include "numeric/door.h"
 #include "numeric/number_lanes.h"
 
 namespace etalon {
+namespace {
 
 void projectVertices(const ViewportTransform& transform, std::span<const ClipVertex> vertices,
                      std::span<ProjectedVertex> projected, std::span<uint8_t> outcodes) {
@@ -31,5 +33,11 @@ void projectVertices(const ViewportTransform& transform, std::span<const ClipVer
         }
     });
 }
+
+}  // namespace
+
+template <>
+constexpr VertexPasses kPassesOver<VertexPasses, void> = {projectVertices};
+template const VertexPasses& ETALON_LEVEL::passesOf<VertexPasses>();
 
 }  // namespace etalon

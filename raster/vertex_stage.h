@@ -1,5 +1,4 @@
-// The vertices of a draw on the screen (rule 3), over lanes. Compiled once per level; callers go through
-// raster/raster_passes.h.
+// The vertices of a draw on the screen (rule 3), over lanes.
 #pragma once
 
 #include <span>
@@ -9,10 +8,12 @@
 
 namespace etalon {
 
-// Projects each vertex and finds its outcode (raster/projection.h). A vertex outside the w plane or the guard
-// band, or that rule 1 drops, gets the middle of the viewport: what is drawn of its triangles comes from the
-// cut polygon. The spans have one size.
-void projectVertices(const ViewportTransform& transform, std::span<const ClipVertex> vertices,
-                     std::span<ProjectedVertex> projected, std::span<uint8_t> outcodes);
+struct VertexPasses {
+    // Projects each vertex and finds its outcode (raster/projection.h). A vertex outside the w plane or the
+    // guard band, or that rule 1 drops, gets the middle of the viewport: what is drawn of its triangles comes
+    // from the cut polygon. The spans have one size.
+    void (*project)(const ViewportTransform& transform, std::span<const ClipVertex> vertices,
+                    std::span<ProjectedVertex> projected, std::span<uint8_t> outcodes);
+};
 
 }  // namespace etalon

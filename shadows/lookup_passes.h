@@ -1,11 +1,10 @@
-// Look-ups in shadow maps, once per fragment arithmetic (raster/fragment_numbers.h).
+// Look-ups in shadow maps.
 #pragma once
 
 #include <memory>
 #include <span>
 
 #include "lighting/light_visibility.h"
-#include "raster/profile.h"
 #include "shadows/shadow_map.h"
 
 namespace etalon {
@@ -29,8 +28,5 @@ struct LookupPasses {
     std::unique_ptr<ShadowLookup> (*makeLookup)(const ShadowMap& map, int fractionBits, int threads,
                                                 WindowSearch search);
 };
-
-// Those of an arithmetic.
-LookupPasses lookupPasses(FragmentArithmetic arithmetic);
 
 }  // namespace etalon

@@ -1,10 +1,9 @@
-// Passes of planar shadows, once per arithmetic (raster/fragment_numbers.h).
+// Passes of planar shadows.
 #pragma once
 
 #include <span>
 
 #include "lighting/light_visibility.h"
-#include "raster/profile.h"
 #include "shadows/planar_shadow.h"
 
 namespace etalon {
@@ -16,15 +15,10 @@ struct PlanarSampling {
 };
 
 struct PlanarPasses {
-    // raster/blur.h
-    Image<float> (*blur)(const Image<float>& image, int radius, double sigma, int threads);
     // visibility[i] for the points i that are listed; the others are left as they are. The shadow is not
     // empty.
     void (*visibility)(const PlanarShadow& shadow, const PlanarSampling& sampling, const LitPoints& points,
                        std::span<const uint32_t> listed, std::span<double> visibility);
 };
-
-// Those of an arithmetic.
-PlanarPasses planarPasses(FragmentArithmetic arithmetic);
 
 }  // namespace etalon

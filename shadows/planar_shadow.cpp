@@ -8,9 +8,11 @@
 #include <utility>
 #include <vector>
 
-#include "lighting/lighting_passes.h"
+#include "lighting/transform.h"
+#include "numeric/door.h"
 #include "numeric/check.h"
 #include "numeric/parallel.h"
+#include "raster/blur.h"
 #include "raster/fragments.h"
 #include "shadows/light_samples.h"
 #include "shadows/planar_passes.h"
@@ -215,7 +217,7 @@ class SampleCounter {
         const ShadowPlane plane{{0, 0, 1}, 0};
         const ProjectionRows rows = planeShadowMatrix(plane, lightToClip(job_.grid, light));
         vertices_.resize(points.size());
-        lightingPasses().projectPoints(job_.vertex, rows, points, vertices_);
+        levelPasses<TransformPasses>().projectPoints(job_.vertex, rows, points, vertices_);
         for (ClipVertex& v : vertices_) v.z = depth * v.w;
     }
 
@@ -298,7 +300,7 @@ PlanarShadow planarShadow(const PlanarReceiver& receiver, const PlanarCasters& c
     if (options.blurSigma_m == 0) return result;
     const double sigma = options.blurSigma_m / counts.grid.texel_m;
     const int radius = static_cast<int>(std::ceil(kPlanarBlurReach * sigma));
-    result.shadow = planarPasses(profile.fragment).blur(result.shadow, radius, sigma, raster.threads);
+    result.shadow = passesIn<BlurPasses>(profile.fragment)->blur(result.shadow, radius, sigma, raster.threads);
     for (float& value : result.shadow.values()) value = std::min(value, 1.0f);
     return result;
 }

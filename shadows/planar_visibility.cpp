@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "numeric/door.h"
 #include "numeric/check.h"
 #include "numeric/parallel.h"
 
@@ -26,7 +27,7 @@ bool PlanarVisibility::casts(size_t light) const {
 
 void PlanarVisibility::find(size_t light, const LitPoints& points, std::span<double> visibility) const {
     std::fill(visibility.begin(), visibility.end(), 1.0);
-    const PlanarPasses passes = planarPasses(profile_->fragment);
+    const auto passes = passesIn<PlanarPasses>(profile_->fragment);
     std::vector<uint32_t> listed;
     std::vector<double> ofEntry(points.size());
     for (const Entry& entry : entries_) {
@@ -34,7 +35,7 @@ void PlanarVisibility::find(size_t light, const LitPoints& points, std::span<dou
         listed.clear();
         for (uint32_t i = 0; i < points.size(); i++)
             if (points.instance[i] == entry.instance) listed.push_back(i);
-        passes.visibility(entry.shadow, samplingOf(*profile_), points, listed, ofEntry);
+        passes->visibility(entry.shadow, samplingOf(*profile_), points, listed, ofEntry);
         for (const uint32_t i : listed) visibility[i] *= ofEntry[i];
     }
 }
@@ -49,7 +50,7 @@ Image<float> composeShadows(const PlanarReceiver& receiver, const PlanarGrid& gr
         ETALON_CHECK(light.irradiance >= 0 && light.irradiance < 0x1p100, "irradiance {}", light.irradiance);
         total += light.irradiance;
     }
-    const PlanarPasses passes = planarPasses(profile.fragment);
+    const auto passes = passesIn<PlanarPasses>(profile.fragment);
     const Image<uint8_t> mask = receiverMask(receiver, grid, profile, raster);
     parallelFor(static_cast<size_t>(grid.height), raster.threads, [&](size_t row) {
         const int y = static_cast<int>(row);
@@ -67,7 +68,7 @@ Image<float> composeShadows(const PlanarReceiver& receiver, const PlanarGrid& gr
         std::vector<double> taken(width, 0), visibility(width);
         for (const WeightedShadow& light : lights) {
             if (light.shadow->shadow.empty()) continue;
-            passes.visibility(*light.shadow, samplingOf(profile), points, listed, visibility);
+            passes->visibility(*light.shadow, samplingOf(profile), points, listed, visibility);
             for (size_t x = 0; x < width; x++) taken[x] += light.irradiance * (1.0 - visibility[x]);
         }
         for (size_t x = 0; x < width; x++) {

@@ -1,5 +1,6 @@
 #include "shadows/shadow_maps.h"
 
+#include "numeric/door.h"
 #include "numeric/check.h"
 
 namespace etalon {
@@ -11,8 +12,8 @@ void ShadowMaps::set(size_t light, ShadowMap map, const Profile& profile, int th
     entry.map.reset();
     if (map.layers.empty()) return;
     entry.map = std::make_unique<ShadowMap>(std::move(map));
-    entry.lookup = lookupPasses(profile.fragment)
-                       .makeLookup(*entry.map, profile.textureFractionBits, threads, WindowSearch::ranges);
+    entry.lookup = passesIn<LookupPasses>(profile.fragment)
+                       ->makeLookup(*entry.map, profile.textureFractionBits, threads, WindowSearch::ranges);
     // The look-up has its own copy.
     for (ShadowLayer& layer : entry.map->layers) layer = {};
 }

@@ -70,7 +70,7 @@ void addAll() {
     empty.radiance.assign(6, Image<float>(kLargeCube.width, kLargeCube.height, 3));
     addMaker(
         "etalon",
-        [=](Probe& cube) { convertProbe(cube, latLong, {kLargeCube}, FragmentArithmetic::fp32, 1); }, empty,
+        [=](Probe& cube) { convertProbe(cube, latLong, {kLargeCube}, Arithmetic::fp32, 1); }, empty,
         true);
 #ifdef ETALON_HAS_OPENCV
     addMaker("opencv", openCvCubes(latLong, kLargeCube), empty, false);

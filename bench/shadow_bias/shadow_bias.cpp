@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <vector>
 
+#include "numeric/door.h"
 #include "numeric/text.h"
 #include "numeric/elementary.h"
 #include "shadows/lookup_passes.h"
@@ -113,8 +114,8 @@ std::vector<double> visibilityOf(const LitPoints& points, const Setting& setting
     const ShadowMap map = renderShadowMap(scene, placed, fit, settings, profile, {});
     perMetre = map.projection.scale / (map.projection.isPerspective ? kLamp_m : 1);
     std::vector<double> visibility(points.size());
-    lookupPasses(profile.fragment)
-        .makeLookup(map, profile.textureFractionBits, 0, WindowSearch::ranges)
+    passesIn<LookupPasses>(profile.fragment)
+        ->makeLookup(map, profile.textureFractionBits, 0, WindowSearch::ranges)
         ->find(points, visibility);
     return visibility;
 }

@@ -7,6 +7,7 @@
 
 #include "lighting/lit_points.h"
 #include "lighting/shading_passes.h"
+#include "numeric/door.h"
 #include "numeric/fp_environment.h"
 #include "tests/support/box_scene.h"
 
@@ -292,7 +293,7 @@ TEST_CASE("FlushingSubnormalsChangesNoBitOfTheShading") {
     {
         const FlushToZeroScope flush;
         ShadeStatistics statistics;
-        shadingPasses(profile.fragment).makeTileShader(job)->run(0, {0, 0, 64, 64}, flushed, statistics);
+        passesIn<ShadingPasses>(profile.fragment)->makeTileShader(job)->run(0, {0, 0, 64, 64}, flushed, statistics);
     }
     for (size_t o = 0; o < kShadeOutputs; o++) CHECK(flushed.images[o] == kept.images[o]);
 }

@@ -225,7 +225,7 @@ TEST_CASE("ListingPathIsOneLookupPerTexel") {
         latLongFromCube(cube, 64, 32, {Filter::bilinear, kExactFraction, CubeEdges::perFace});
     CHECK(perFace != latLongFromCube(cube, 64, 32));
     CHECK(perFace.at(0, 16) == latLongFromCube(cube, 64, 32).at(0, 16));
-    CHECK(latLongFromCube(cube, 20, 10, {}, FragmentArithmetic::fp32, 3) == listing);
+    CHECK(latLongFromCube(cube, 20, 10, {}, Arithmetic::fp32, 3) == listing);
 }
 
 TEST_CASE("ProbesWithWrongImagesAreRefused") {

@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 
+#include "numeric/door.h"
 #include "numeric/check.h"
 #include "probes/convert_over.h"
 #include "probes/mapping_passes.h"
@@ -84,10 +85,10 @@ glm::dmat3 rotationAboutAxis(int axis, double angle_rad) {
 }  // namespace
 
 TEST_CASE("ConstantProbesKeepTheirConstantInEveryMappingAndArithmetic") {
-    for (const FragmentArithmetic arithmetic :
-         {FragmentArithmetic::truth, FragmentArithmetic::fp64, FragmentArithmetic::fp32,
-          FragmentArithmetic::fp32Flush, FragmentArithmetic::fp32Nv40, FragmentArithmetic::fp16,
-          FragmentArithmetic::fp16Nv40, FragmentArithmetic::bf16, FragmentArithmetic::fp24R300})
+    for (const Arithmetic arithmetic :
+         {Arithmetic::truth, Arithmetic::fp64, Arithmetic::fp32,
+          Arithmetic::fp32Flush, Arithmetic::fp32Nv40, Arithmetic::fp16,
+          Arithmetic::fp16Nv40, Arithmetic::bf16, Arithmetic::fp24R300})
         for (const Mapping from : kMappings)
             for (const Mapping to : kMappings)
                 for (const Resampling resampling :
@@ -118,10 +119,10 @@ TEST_CASE("ConversionToACubeIsThePassOfMirrors") {
     Image<float> image(24, 12, 3);
     for (float& v : image.values()) v = static_cast<float>(random.uniform(0, 10));
     const Probe source = probeOf(image, Mapping::latLong);
-    for (const FragmentArithmetic arithmetic : {FragmentArithmetic::fp32, FragmentArithmetic::fp16}) {
+    for (const Arithmetic arithmetic : {Arithmetic::fp32, Arithmetic::fp16}) {
         for (const int size : {9, 16}) {
             const Probe cube = convertProbe(source, {{Mapping::cube, size, size}}, arithmetic, 2);
-            CHECK(sameBits(cube, probeOf(mappingPasses(arithmetic).cubeFromLatLong(image, size, {}, 1))));
+            CHECK(sameBits(cube, probeOf(passesIn<MappingPasses>(arithmetic)->cubeFromLatLong(image, size, {}, 1))));
         }
     }
 }
@@ -135,9 +136,9 @@ TEST_CASE("MirroredTexelsHaveTheBitsOfTheirOwnDirections") {
     for (const Mapping to : kMappings)
         for (const int size : {1, 2, 6, 16, 64, 100})
             for (const double distance_radii : {std::numeric_limits<double>::infinity(), 3.0})
-                for (const FragmentArithmetic arithmetic :
-                     {FragmentArithmetic::fp32, FragmentArithmetic::fp64, FragmentArithmetic::fp16}) {
-                    if (arithmetic == FragmentArithmetic::fp16 && size > 16) continue;
+                for (const Arithmetic arithmetic :
+                     {Arithmetic::fp32, Arithmetic::fp64, Arithmetic::fp16}) {
+                    if (arithmetic == Arithmetic::fp16 && size > 16) continue;
                     for (const Resampling resampling : {Resampling::bilinear, Resampling::nearest}) {
                         ConversionJob job;
                         job.source = source.shape, job.target = shapeOf(to, size);
@@ -148,9 +149,9 @@ TEST_CASE("MirroredTexelsHaveTheBitsOfTheirOwnDirections") {
                         Probe mirrored = constantProbe(job.target, -1), turned = mirrored;
                         for (Probe* p : {&mirrored, &turned})
                             if (isDisc(to)) p->valid = {Image<uint8_t>(size, size)};
-                        mappingPasses(arithmetic).convertImages(job, mirrored);
+                        passesIn<MappingPasses>(arithmetic)->convertImages(job, mirrored);
                         job.isTurned = true;
-                        mappingPasses(arithmetic).convertImages(job, turned);
+                        passesIn<MappingPasses>(arithmetic)->convertImages(job, turned);
                         CAPTURE(static_cast<int>(to));
                         CAPTURE(size);
                         CAPTURE(static_cast<int>(resampling));
@@ -165,8 +166,8 @@ TEST_CASE("ConversionsDependOnNoThreadsAndLanes") {
         for (const Resampling resampling : {Resampling::bilinear, Resampling::area}) {
             ProbeConversion conversion{shapeOf(to, 21), rotationAboutAxis(0, 0.3), resampling, 3};
             conversion.shape.ballDistance_radii = 4;
-            const Probe one = convertProbe(cube, conversion, FragmentArithmetic::fp32, 1);
-            CHECK(sameBits(one, convertProbe(cube, conversion, FragmentArithmetic::fp32, 3)));
+            const Probe one = convertProbe(cube, conversion, Arithmetic::fp32, 1);
+            CHECK(sameBits(one, convertProbe(cube, conversion, Arithmetic::fp32, 3)));
             ConversionJob job;
             job.source = cube.shape, job.target = conversion.shape, job.radiance = cube.radiance;
             job.turn = rotationAboutAxis(0, 0.3), job.isTurned = true, job.hasBlindSpots = isDisc(to);
@@ -264,8 +265,8 @@ TEST_CASE("PlacesSurviveConversionWithinTheirGeometricError") {
 TEST_CASE("RoundTripsOfAnAnalyticRadianceConvergeAtTheirOrder") {
     const auto error = [](Mapping by, int size) {
         const Probe source = probeOfFunction(shapeOf(Mapping::latLong, size), analyticRadiance);
-        const Probe there = convertProbe(source, {shapeOf(by, size)}, FragmentArithmetic::fp64);
-        const Probe back = convertProbe(there, {source.shape}, FragmentArithmetic::fp64);
+        const Probe there = convertProbe(source, {shapeOf(by, size)}, Arithmetic::fp64);
+        const Probe back = convertProbe(there, {source.shape}, Arithmetic::fp64);
         const TexelGrid grid(source.shape);
         double square = 0;
         forEachTexel(back, [&](int layer, int x, int y, bool isValid, const glm::dvec3& value) {

@@ -126,7 +126,7 @@ TEST_CASE("HarmonicsOfFetchedProbesAreTheDirectSum") {
         CAPTURE(kNames[p]);
         const double error = largestDifference(projectHarmonics(probes[p], kDegree), direct[p]);
         const double perTexel =
-            largestDifference(projectHarmonics(probes[p], kDegree, FragmentArithmetic::fp64), direct[p]);
+            largestDifference(projectHarmonics(probes[p], kDegree, Arithmetic::fp64), direct[p]);
         CHECK(error <= kProjectionDoubleError * largestRadiance(probes[p]));
         CHECK(perTexel <= kProjectionDoubleError * largestRadiance(probes[p]));
         // In units of the mean.
@@ -139,7 +139,7 @@ TEST_CASE("HarmonicsOfFetchedProbesKeepTheBoundOfEachArithmetic") {
     for (const Probe& probe : fetchedProbes()) probes.push_back(reduced(probe, 16));
     const auto direct = directCoefficients<Truth>(probes, truthPi());
     for (size_t p = 0; p < probes.size(); p++)
-        for (const FragmentArithmetic a : kAllArithmetics) {
+        for (const Arithmetic a : kAllArithmetics) {
             CAPTURE(kNames[p]);
             CAPTURE(static_cast<int>(a));
             const SphericalHarmonics f = projectHarmonics(probes[p], kDegree, a);

@@ -14,7 +14,7 @@ namespace etalon {
 namespace {
 
 constexpr double kPi = 0x1.921fb54442d18p+1;
-constexpr FragmentArithmetic kDouble = FragmentArithmetic::fp64;
+constexpr Arithmetic kDouble = Arithmetic::fp64;
 
 std::vector<glm::dvec3> someNormals() {
     std::vector<glm::dvec3> normals = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
@@ -64,7 +64,7 @@ TEST_CASE("WhiteFurnaceIsPi") {
         CAPTURE(static_cast<int>(furnace.shape.mapping));
         CAPTURE(furnace.shape.ballDistance_radii);
         const Probe white = constantProbe(furnace.shape, 1);
-        const std::vector<glm::dvec3> exact = irradianceAt(white, normals, FragmentArithmetic::truth);
+        const std::vector<glm::dvec3> exact = irradianceAt(white, normals, Arithmetic::truth);
         // A near ball hides a cone around -Z, which takes sin^2 of its half angle from a plane that faces it.
         const double taken = furnace.sineOfHidden() * furnace.sineOfHidden();
         for (const glm::dvec3& e : exact) {
@@ -75,11 +75,11 @@ TEST_CASE("WhiteFurnaceIsPi") {
         CHECK(std::abs(exact[5].x / kPi - (1 - taken)) <= furnace.quadrature);
         // From harmonics there is no midpoint rule in the cosine.
         const SphericalHarmonics f =
-            irradianceOfHarmonics(projectHarmonics(white, 2, FragmentArithmetic::fp64));
+            irradianceOfHarmonics(projectHarmonics(white, 2, Arithmetic::fp64));
         const std::vector<glm::dvec3> smooth = evaluateHarmonics(f, normals, kDouble);
         if (taken == 0)
             for (const glm::dvec3& e : smooth) CHECK(std::abs(e.x / kPi - 1) <= furnace.quadrature);
-        for (const FragmentArithmetic a : kAllArithmetics) {
+        for (const Arithmetic a : kAllArithmetics) {
             CAPTURE(static_cast<int>(a));
             const double error = largestRelative(irradianceAt(white, normals, a), exact);
             CAPTURE(error);
@@ -92,8 +92,8 @@ TEST_CASE("WhiteFurnaceIsPi") {
 TEST_CASE("IrradianceInEveryArithmeticKeepsItsBound") {
     const Probe probe = randomProbe({Mapping::latLong, 48, 24}, 4);
     const std::vector<glm::dvec3> normals = someNormals();
-    const std::vector<glm::dvec3> exact = irradianceAt(probe, normals, FragmentArithmetic::truth);
-    for (const FragmentArithmetic a : kAllArithmetics) {
+    const std::vector<glm::dvec3> exact = irradianceAt(probe, normals, Arithmetic::truth);
+    for (const Arithmetic a : kAllArithmetics) {
         CAPTURE(static_cast<int>(a));
         const double error = largestRelative(irradianceAt(probe, normals, a), exact);
         CAPTURE(error);
@@ -143,20 +143,20 @@ TEST_CASE("HarmonicsOfDegreeTwoMissALittleOfASun") {
 TEST_CASE("IrradianceProbesShowTheirDirections") {
     const Probe probe = randomProbe({Mapping::latLong, 16, 8}, 6);
     const ProbeShape shape{Mapping::cube, 3, 3};
-    const Probe map = irradianceProbe(probe, shape, FragmentArithmetic::fp32);
+    const Probe map = irradianceProbe(probe, shape, Arithmetic::fp32);
     const std::vector<glm::dvec3> values =
-        irradianceAt(probe, texelDirections(shape), FragmentArithmetic::fp32);
+        irradianceAt(probe, texelDirections(shape), Arithmetic::fp32);
     CHECK(map.shape == shape);
     CHECK(map.radiance[1].at(2, 1, 0) == static_cast<float>(values[9 + 5].x));
-    const Probe smooth = irradianceProbe(projectHarmonics(probe, 4), shape, probe, FragmentArithmetic::fp32);
+    const Probe smooth = irradianceProbe(projectHarmonics(probe, 4), shape, probe, Arithmetic::fp32);
     for (size_t i = 0; i < 9; i++)
         CHECK(std::abs(smooth.radiance[0].plane(0)[i] / map.radiance[0].plane(0)[i] - 1) < 0.03);
 }
 
 TEST_CASE("ExtremeProbesHaveFiniteIrradiance") {
     const std::vector<glm::dvec3> normals = someNormals();
-    for (const FragmentArithmetic a : kAllArithmetics) {
-        const bool isHalf = a == FragmentArithmetic::fp16 || a == FragmentArithmetic::fp16Nv40;
+    for (const Arithmetic a : kAllArithmetics) {
+        const bool isHalf = a == Arithmetic::fp16 || a == Arithmetic::fp16Nv40;
         CAPTURE(static_cast<int>(a));
         const auto check = [&](const Probe& probe) {
             const std::vector<glm::dvec3> values = irradianceAt(probe, normals, a);
@@ -192,11 +192,11 @@ TEST_CASE("ExtremeProbesHaveFiniteIrradiance") {
 
 TEST_CASE("BlurredMapOfAConstantIsTheConstant") {
     const Probe map =
-        blurredDiffuseMap(constantProbe({Mapping::cube, 8, 8}, 3), 5, 2.5, FragmentArithmetic::fp32);
+        blurredDiffuseMap(constantProbe({Mapping::cube, 8, 8}, 3), 5, 2.5, Arithmetic::fp32);
     for (const Image<float>& face : map.radiance)
         for (const float v : face.values()) CHECK(std::abs(v / 3 - 1) < 1e-6);
     CHECK_THROWS_AS(
-        blurredDiffuseMap(constantProbe({Mapping::latLong, 8, 4}, 3), 5, 2.5, FragmentArithmetic::fp32),
+        blurredDiffuseMap(constantProbe({Mapping::latLong, 8, 4}, 3), 5, 2.5, Arithmetic::fp32),
         PreconditionError);
 }
 
@@ -207,7 +207,7 @@ TEST_CASE("BlurredMapIsNoIrradiance") {
     const TexelGrid grid(shape);
     const Probe sky = madeProbe(
         shape, [&](int layer, int x, int y, int) { return grid.direction(layer, x, y).y > 0 ? 1.0 : 0.0; });
-    const Probe map = blurredDiffuseMap(sky, 16, 8, FragmentArithmetic::fp64);
+    const Probe map = blurredDiffuseMap(sky, 16, 8, Arithmetic::fp64);
     const std::vector<glm::dvec3> exact = irradianceAt(sky, texelDirections(shape), kDouble);
     double worst = 0;
     for (size_t i = 0; i < exact.size(); i++)

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "probes/probe_errors.h"
+#include "numeric/door.h"
 #include "numeric/rounded.h"
 #include "numeric/truth.h"
 #include "probes/light_passes.h"
@@ -74,14 +75,13 @@ TEST_CASE("MeanIrradianceOfLightsIsPiWhereverTheyAre") {
 
 // Not the error of the midpoint rule but that of each arithmetic.
 TEST_CASE("MeanIrradianceKeepsToTheBoundOfEachArithmetic") {
-    using enum FragmentArithmetic;
-    for (const FragmentArithmetic arithmetic :
-         {truth, fp64, fp32, fp32Flush, fp32Nv40, fp24R300, fp16, fp16Nv40, bf16}) {
+    for (const Arithmetic arithmetic :
+         {Arithmetic::truth, Arithmetic::fp64, Arithmetic::fp32, Arithmetic::fp32Flush, Arithmetic::fp32Nv40, Arithmetic::fp24R300, Arithmetic::fp16, Arithmetic::fp16Nv40, Arithmetic::bf16}) {
         double worst = 0.0;
         for (const int count : {2, 16, 64}) {
-            if (arithmetic == truth && count > 2) continue;
+            if (arithmetic == Arithmetic::truth && count > 2) continue;
             const auto lights = furnaceLights(count, static_cast<uint64_t>(count));
-            const auto irradiance = lightPasses(arithmetic).irradianceOfLights(lights, kShape, 1),
+            const auto irradiance = passesIn<LightPasses>(arithmetic)->irradianceOfLights(lights, kShape, 1),
                        exact = irradianceOfLights<double>(lights, kShape, 1);
             for (int c = 0; c < 3; c++)
                 worst = std::max(
@@ -90,7 +90,7 @@ TEST_CASE("MeanIrradianceKeepsToTheBoundOfEachArithmetic") {
         }
         INFO(static_cast<int>(arithmetic) << ": " << worst);
         CHECK(worst <= probeErrors(arithmetic).meanOfLights);
-        if (arithmetic != truth && arithmetic != fp64)
+        if (arithmetic != Arithmetic::truth && arithmetic != Arithmetic::fp64)
             CHECK(worst >= 0.1 * probeErrors(arithmetic).meanOfLights);
     }
 }
@@ -118,7 +118,7 @@ TEST_CASE("IrradianceOfLightsInOtherThreadsAndLanesGivesTheSameBits") {
         const auto scalar = irradianceOfLights<float>(lights, shape, 1);
         CHECK(irradianceOfLights<Lanes<float, 16>>(lights, shape, 3) == scalar);
         CHECK(irradianceOfLights<Rounded<kFp32, Lanes<double, 4>>>(lights, shape, 2) == scalar);
-        CHECK(lightPasses(FragmentArithmetic::fp32).irradianceOfLights(lights, shape, 2) == scalar);
+        CHECK(passesIn<LightPasses>(Arithmetic::fp32)->irradianceOfLights(lights, shape, 2) == scalar);
     }
 }
 

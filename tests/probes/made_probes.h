@@ -12,10 +12,10 @@
 
 namespace etalon {
 
-inline constexpr FragmentArithmetic kAllArithmetics[] = {
-    FragmentArithmetic::truth,     FragmentArithmetic::fp64,     FragmentArithmetic::fp32,
-    FragmentArithmetic::fp32Flush, FragmentArithmetic::fp32Nv40, FragmentArithmetic::fp16,
-    FragmentArithmetic::fp16Nv40,  FragmentArithmetic::bf16,     FragmentArithmetic::fp24R300};
+inline constexpr Arithmetic kAllArithmetics[] = {
+    Arithmetic::truth,     Arithmetic::fp64,     Arithmetic::fp32,
+    Arithmetic::fp32Flush, Arithmetic::fp32Nv40, Arithmetic::fp16,
+    Arithmetic::fp16Nv40,  Arithmetic::bf16,     Arithmetic::fp24R300};
 
 // Every texel shows value(layer, x, y, channel).
 template <class F>

@@ -134,7 +134,7 @@ TEST_CASE("ProjectionIsTheSumOverTexels") {
                 CAPTURE(shape.width);
                 CAPTURE(degree);
                 CHECK(largestDifference(projectHarmonics(probe, degree), direct) <= kProjectionDoubleError);
-                CHECK(largestDifference(projectHarmonics(probe, degree, FragmentArithmetic::fp64), direct) <=
+                CHECK(largestDifference(projectHarmonics(probe, degree, Arithmetic::fp64), direct) <=
                       kProjectionDoubleError);
             }
 }
@@ -153,8 +153,8 @@ TEST_CASE("BlindTexelsAreBlack") {
             }
         }
         CHECK(projectHarmonics(probe, 3).coefficients == projectHarmonics(black, 3).coefficients);
-        CHECK(projectHarmonics(probe, 3, FragmentArithmetic::fp32).coefficients ==
-              projectHarmonics(black, 3, FragmentArithmetic::fp32).coefficients);
+        CHECK(projectHarmonics(probe, 3, Arithmetic::fp32).coefficients ==
+              projectHarmonics(black, 3, Arithmetic::fp32).coefficients);
     }
 }
 
@@ -185,8 +185,8 @@ TEST_CASE("HarmonicsOfThreadsAreTheSame") {
     const Probe cube = randomProbe({Mapping::cube, 17, 17}, 8);
     for (const Probe* p : {&probe, &cube}) {
         CHECK(projectHarmonics(*p, 5, 1).coefficients == projectHarmonics(*p, 5, 4).coefficients);
-        CHECK(projectHarmonics(*p, 5, FragmentArithmetic::fp24R300, 1).coefficients ==
-              projectHarmonics(*p, 5, FragmentArithmetic::fp24R300, 3).coefficients);
+        CHECK(projectHarmonics(*p, 5, Arithmetic::fp24R300, 1).coefficients ==
+              projectHarmonics(*p, 5, Arithmetic::fp24R300, 3).coefficients);
     }
 }
 
@@ -195,7 +195,7 @@ TEST_CASE("EvaluationInEveryArithmeticIsNearTheFunction") {
     RandomNumbers random(10);
     std::vector<glm::dvec3> directions;
     for (int i = 0; i < 40; i++) directions.push_back(randomUnitVector(random));
-    for (const FragmentArithmetic a : kAllArithmetics) {
+    for (const Arithmetic a : kAllArithmetics) {
         const std::vector<glm::dvec3> values = evaluateHarmonics(f, directions, a);
         double worst = 0;
         for (size_t i = 0; i < directions.size(); i++)
@@ -211,11 +211,11 @@ TEST_CASE("WhiteFurnaceHasTheMeanOfTwoRootPi") {
         CAPTURE(static_cast<int>(furnace.shape.mapping));
         CAPTURE(furnace.shape.ballDistance_radii);
         const Probe white = constantProbe(furnace.shape, 1);
-        const SphericalHarmonics exact = projectHarmonics(white, 4, FragmentArithmetic::truth);
+        const SphericalHarmonics exact = projectHarmonics(white, 4, Arithmetic::truth);
         const double expected = 2 * std::sqrt(kPi) * (furnace.shown_sr() / (4 * kPi));
         CHECK(std::abs(exact.coefficients[0].x / expected - 1) <= 1e-14);
         CHECK(std::abs(projectHarmonics(white, 4).coefficients[0].x / expected - 1) <= 1e-14);
-        for (const FragmentArithmetic a : kAllArithmetics) {
+        for (const Arithmetic a : kAllArithmetics) {
             const SphericalHarmonics f = projectHarmonics(white, 4, a);
             CAPTURE(static_cast<int>(a));
             CAPTURE(f.coefficients[0].x / expected - 1);
@@ -229,8 +229,8 @@ TEST_CASE("WhiteFurnaceHasTheMeanOfTwoRootPi") {
 
 TEST_CASE("ExtremeProbesHaveFiniteHarmonicsThatKeepTheirEnergy") {
     const double largestHalf = 65504;
-    for (const FragmentArithmetic a : kAllArithmetics) {
-        const bool isHalf = a == FragmentArithmetic::fp16 || a == FragmentArithmetic::fp16Nv40;
+    for (const Arithmetic a : kAllArithmetics) {
+        const bool isHalf = a == Arithmetic::fp16 || a == Arithmetic::fp16Nv40;
         CAPTURE(static_cast<int>(a));
         const auto check = [&](const Probe& probe) {
             // Half floats limit radiance to their largest number.

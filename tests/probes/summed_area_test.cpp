@@ -6,11 +6,11 @@
 #include <limits>
 #include <type_traits>
 
+#include "numeric/door.h"
 #include "numeric/truth.h"
 #include "probes/energy_lanes.h"
 #include "probes/light_passes.h"
 #include "probes/median_cut.h"
-#include "probes/probe_passes.h"
 #include "tests/support/random_numbers.h"
 
 namespace etalon {
@@ -32,9 +32,9 @@ Image<double> randomTexels(int size, uint64_t seed) {
 }
 
 // What is left of the texels in the differences of a table's entries, in dB; the largest texel is 1.
-double signalToNoise_db(FragmentArithmetic arithmetic, const Image<double>& texels) {
-    const LightPasses passes = lightPasses(arithmetic);
-    const Image<double> boxes = passes.boxSums(passes.summedArea(texels, 1), 1, 1, 1);
+double signalToNoise_db(Arithmetic arithmetic, const Image<double>& texels) {
+    const auto passes = passesIn<LightPasses>(arithmetic);
+    const Image<double> boxes = passes->boxSums(passes->summedArea(texels, 1), 1, 1, 1);
     double square = 0.0;
     for (size_t i = 0; i < boxes.values().size(); i++)
         square += std::pow(boxes.values()[i] - texels.values()[i], 2.0);
@@ -114,31 +114,30 @@ TEST_CASE("EnergyTableTakesWhatIsNoRadianceAsBlack") {
     const std::vector<double> weights(3, 1.0);
     const EnergyTable table(image, weights, 1), expected(clean, weights, 1);
     CHECK(table.total() == expected.total());
-    const RegionSums sums = probePasses().energy.regionSums(image, {0, 0, 17, 3}, weights.data());
+    const RegionSums sums = levelPasses<EnergyPasses>().regionSums(image, {0, 0, 17, 3}, weights.data());
     CHECK(sums.uncountedValues == 3);
     CHECK(sums.energy == glm::dvec3(102.0, 96.0, 102.0));
-    CHECK(probePasses().energy.regionSums(image, {1, 0, 9, 3}, weights.data()).uncountedValues == 0);
+    CHECK(levelPasses<EnergyPasses>().regionSums(image, {1, 0, 9, 3}, weights.data()).uncountedValues == 0);
 }
 
 // The figures of probes/summed_area.h.
 TEST_CASE("TablesOfFewDigitsLoseTheTexels") {
-    using enum FragmentArithmetic;
     const Image<double> small = randomTexels(256, 4), large = randomTexels(1024, 5);
     const auto isAbout = [](double value, double expected) { return std::abs(value - expected) <= 0.7; };
-    CHECK(isAbout(signalToNoise_db(fp32, small), 68.0));
-    CHECK(isAbout(signalToNoise_db(fp32, large), 44.0));
-    CHECK(isAbout(signalToNoise_db(fp24R300, small), 26.0));
-    CHECK(isAbout(signalToNoise_db(fp24R300, large), 3.0));
-    CHECK(signalToNoise_db(fp64, large) >= 230.0);
+    CHECK(isAbout(signalToNoise_db(Arithmetic::fp32, small), 68.0));
+    CHECK(isAbout(signalToNoise_db(Arithmetic::fp32, large), 44.0));
+    CHECK(isAbout(signalToNoise_db(Arithmetic::fp24R300, small), 26.0));
+    CHECK(isAbout(signalToNoise_db(Arithmetic::fp24R300, large), 3.0));
+    CHECK(signalToNoise_db(Arithmetic::fp64, large) >= 230.0);
     // Half floats cannot hold the sums at all.
-    CHECK(signalToNoise_db(fp16, small) < 0.0);
+    CHECK(signalToNoise_db(Arithmetic::fp16, small) < 0.0);
 
     Image<double> centred = large, ramp(1024, 1024);
     for (double& v : centred.values()) v -= 0.5;
     for (int y = 0; y < 1024; y++)
         for (int x = 0; x < 1024; x++) ramp.at(x, y) = (x + 0.5) / 1024 - 0.5;
-    CHECK(signalToNoise_db(fp32, centred) >= 100.0);
-    CHECK(isAbout(signalToNoise_db(fp32, ramp), 55.0));
+    CHECK(signalToNoise_db(Arithmetic::fp32, centred) >= 100.0);
+    CHECK(isAbout(signalToNoise_db(Arithmetic::fp32, ramp), 55.0));
 }
 
 TEST_CASE("SummedAreaInOtherThreadsAndLanesGivesTheSameBits") {
@@ -146,7 +145,7 @@ TEST_CASE("SummedAreaInOtherThreadsAndLanesGivesTheSameBits") {
     const Image<double> table = summedArea<float>(texels, 1);
     CHECK(summedArea<Lanes<float, 16>>(texels, 3) == table);
     CHECK(summedArea<Rounded<kFp32, Lanes<double, 4>>>(texels, 2) == table);
-    CHECK(lightPasses(FragmentArithmetic::fp32).summedArea(texels, 2) == table);
+    CHECK(passesIn<LightPasses>(Arithmetic::fp32)->summedArea(texels, 2) == table);
     const Image<double> boxes = boxSums<float>(table, 5, 3, 1);
     CHECK(boxes.width() == 63);
     CHECK(boxes.height() == 65);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <set>
 
+#include "numeric/door.h"
 #include "numeric/isa.h"
 #include "numeric/random.h"
 #include "shadows/shadow_pattern.h"
@@ -299,8 +300,8 @@ TEST_CASE("ShadowThreadsAndLevelsChangeNoBit") {
                             renderShadowMap(scene, placed, bulb({0.3, 2, 0.2}), {}, settings, profile,
                                             {threads, threads == 1 ? 64 : 16, false});
                         std::vector<double> visibility(points.size());
-                        lookupPasses(profile.fragment)
-                            .makeLookup(map, 8, threads, WindowSearch::ranges)
+                        passesIn<LookupPasses>(profile.fragment)
+                            ->makeLookup(map, 8, threads, WindowSearch::ranges)
                             ->find(points, visibility);
                         all.push_back(visibility);
                     }

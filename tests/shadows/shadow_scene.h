@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "numeric/door.h"
 #include "lighting/geometry.h"
 #include "lighting/light_visibility.h"
 #include "lighting/render_view.h"
@@ -76,8 +77,8 @@ inline std::vector<double> lookUp(const ShadowMap& map, const LitPoints& points,
                                   WindowSearch search = WindowSearch::ranges) {
     const Profile& profile = *findProfile(profileName);
     std::vector<double> visibility(points.size());
-    lookupPasses(profile.fragment)
-        .makeLookup(map, profile.textureFractionBits, 1, search)
+    passesIn<LookupPasses>(profile.fragment)
+        ->makeLookup(map, profile.textureFractionBits, 1, search)
         ->find(points, visibility);
     return visibility;
 }

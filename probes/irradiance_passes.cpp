@@ -1,13 +1,12 @@
-// Irradiance of a probe over a number type, for the sources that instantiate it.
-#pragma once
-
-#include "numeric/parallel.h"
 #include "probes/irradiance_passes.h"
+
+#include "numeric/door.h"
+#include "numeric/parallel.h"
 #include "probes/term_sums.h"
 #include "probes/texel_rows_over.h"
-#include "raster/blur.h"
 
 namespace etalon {
+namespace {
 
 // What a texel adds, in the arithmetic: direction and flux.
 template <class T>
@@ -120,9 +119,10 @@ std::vector<glm::dvec3> irradianceAtOver(const Probe& probe, std::span<const glm
     return values;
 }
 
+}  // namespace
+
 template <class T>
-IrradiancePasses irradiancePassesOver() {
-    return {irradianceAtOver<T>, blurGaussian<T>};
-}
+constexpr IrradiancePasses kPassesOver<IrradiancePasses, T> = {irradianceAtOver<T>};
+template const IrradiancePasses& ETALON_LEVEL::passesOf<IrradiancePasses>(NumberType);
 
 }  // namespace etalon

@@ -1,13 +1,12 @@
-// Passes of planar shadows over a number type, for the sources that instantiate them.
-#pragma once
+#include "shadows/planar_passes.h"
 
 #include <algorithm>
 
+#include "numeric/door.h"
 #include "numeric/number_lanes.h"
-#include "raster/blur.h"
-#include "shadows/planar_passes.h"
 
 namespace etalon {
+namespace {
 
 template <class T>
 struct PlanarKernel {
@@ -50,9 +49,10 @@ void planarVisibilityOver(const PlanarShadow& shadow, const PlanarSampling& samp
     });
 }
 
+}  // namespace
+
 template <class T>
-PlanarPasses planarPassesOver() {
-    return {blurGaussian<T>, planarVisibilityOver<T>};
-}
+constexpr PlanarPasses kPassesOver<PlanarPasses, T> = {planarVisibilityOver<T>};
+template const PlanarPasses& ETALON_LEVEL::passesOf<PlanarPasses>(NumberType);
 
 }  // namespace etalon

@@ -1,21 +1,19 @@
-// Look-ups in a shadow map over a number type T. Included by the sources that instantiate it, one per number
-// type.
-#pragma once
+#include "shadows/lookup_passes.h"
 
 #include <algorithm>
 #include <array>
 #include <bit>
 
 #include "lighting/render_view.h"
-#include "numeric/elementary.h"
+#include "numeric/door.h"
 #include "numeric/number_lanes.h"
 #include "numeric/parallel.h"
 #include "raster/depth.h"
 #include "raster/texture.h"
-#include "shadows/lookup_passes.h"
 #include "shadows/shadow_pattern.h"
 
 namespace etalon {
+namespace {
 
 template <class T>
 struct ShadowKernels {
@@ -119,6 +117,7 @@ class ShadowLookupOf final : public ShadowLookup {
     T fetch(const std::array<int, kChunk>& layers, size_t first, const integer& x, const integer& y) const;
 
     const ShadowMap& map_;
+    KeptFormat<T> format_;
     int fractionBits_ = 0, windowTaps_ = 0;
     int pad_ = 0;
     ptrdiff_t stride_ = 0;
@@ -334,6 +333,7 @@ template <class T>
 void ShadowLookupOf<T>::find(const LitPoints& points, std::span<double> visibility) const {
     ETALON_CHECK(visibility.size() == points.size(), "{} values of {} points", visibility.size(),
                  points.size());
+    [[maybe_unused]] const auto scope = format_.enter();
     if (planes_.empty()) {
         std::fill(visibility.begin(), visibility.end(), 1.0);
         return;
@@ -588,5 +588,14 @@ void ShadowLookupOf<T>::findDisc(const LitPoints& points, size_t first, const Pl
         for (int i = 0; i < active; i++) visibility[offset + static_cast<size_t>(i)] = numberLane(part, i);
     });
 }
+
+}  // namespace
+
+template <class T>
+constexpr LookupPasses kPassesOver<LookupPasses, T> = {
+    [](const ShadowMap& map, int fractionBits, int threads, WindowSearch search) -> std::unique_ptr<ShadowLookup> {
+        return std::make_unique<ShadowLookupOf<T>>(map, fractionBits, threads, search);
+    }};
+template const LookupPasses& ETALON_LEVEL::passesOf<LookupPasses>(NumberType);
 
 }  // namespace etalon

@@ -1,12 +1,13 @@
-// Spherical harmonics of a lat-long probe by azimuthal moments, for sources that are compiled per level.
-#pragma once
-
+// Spherical harmonics of a lat-long probe by azimuthal moments.
+#include "numeric/door.h"
 #include "numeric/parallel.h"
+#include "probes/harmonics_passes.h"
 #include "probes/latlong.h"
 #include "probes/spherical_harmonics.h"
 #include "probes/term_sums.h"
 
 namespace etalon {
+namespace {
 
 // Partial sums along a row: the texels x, x + 8, x + 16, ... belong to one.
 inline constexpr int kMomentParts = 8;
@@ -108,5 +109,11 @@ SphericalHarmonics projectLatLongOver(const Probe& probe, int degree, int thread
         result.coefficients[i / 3][static_cast<glm::length_t>(i % 3)] = rowSums[i];
     return result;
 }
+
+}  // namespace
+
+template <>
+constexpr LatLongHarmonicsPasses kPassesOver<LatLongHarmonicsPasses, void> = {projectLatLongOver<Native<double>>};
+template const LatLongHarmonicsPasses& ETALON_LEVEL::passesOf<LatLongHarmonicsPasses>();
 
 }  // namespace etalon

@@ -1,12 +1,12 @@
-// Spherical harmonics of a probe over a number type, for the sources that instantiate them.
-#pragma once
-
-#include "numeric/parallel.h"
 #include "probes/harmonics_passes.h"
+
+#include "numeric/door.h"
+#include "numeric/parallel.h"
 #include "probes/term_sums.h"
 #include "probes/texel_rows_over.h"
 
 namespace etalon {
+namespace {
 
 // One row: adds radiance x harmonic of each texel to `sums`, a block for each of the kTexelGroup partial
 // sums; in a block three channels for each coefficient.
@@ -95,9 +95,10 @@ std::vector<glm::dvec3> evaluateHarmonicsOver(const SphericalHarmonics& harmonic
     return values;
 }
 
+}  // namespace
+
 template <class T>
-HarmonicsPasses harmonicsPassesOver() {
-    return {projectHarmonicsOver<T>, evaluateHarmonicsOver<T>};
-}
+constexpr HarmonicsPasses kPassesOver<HarmonicsPasses, T> = {projectHarmonicsOver<T>, evaluateHarmonicsOver<T>};
+template const HarmonicsPasses& ETALON_LEVEL::passesOf<HarmonicsPasses>(NumberType);
 
 }  // namespace etalon

@@ -1,0 +1,42 @@
+// Arithmetics: which number type a pass computes in and, for the emulated one, in which format.
+#pragma once
+
+#include <cstdint>
+
+#include "numeric/format.h"
+
+namespace etalon {
+
+// The number types that passes are compiled for.
+enum class NumberType : uint8_t {
+    fp32,      // float, in lanes
+    fp64,      // double, in lanes
+    emulated,  // any format (numeric/emulated.h), in lanes
+    truth,     // 192 bits (numeric/truth.h), one at a time
+};
+
+// A value: a format that a user makes up is one too.
+struct Arithmetic {
+    NumberType type = NumberType::fp32;
+    Format format = kFp32;  // of the emulated type
+
+    constexpr Arithmetic() = default;
+    constexpr explicit Arithmetic(NumberType numberType) : type(numberType) {}
+    constexpr explicit Arithmetic(Format emulated) : type(NumberType::emulated), format(emulated) {}
+    friend constexpr bool operator==(const Arithmetic&, const Arithmetic&) = default;
+
+    static const Arithmetic truth, fp64, fp32;
+    // The formats of numeric/format.h.
+    static const Arithmetic fp32Flush, fp32Nv40, fp16, fp16Nv40, bf16, fp24R300;
+};
+inline constexpr Arithmetic Arithmetic::truth{NumberType::truth};
+inline constexpr Arithmetic Arithmetic::fp64{NumberType::fp64};
+inline constexpr Arithmetic Arithmetic::fp32{NumberType::fp32};
+inline constexpr Arithmetic Arithmetic::fp32Flush{kFp32Flush};
+inline constexpr Arithmetic Arithmetic::fp32Nv40{kFp32Nv40};
+inline constexpr Arithmetic Arithmetic::fp16{kFp16};
+inline constexpr Arithmetic Arithmetic::fp16Nv40{kFp16Nv40};
+inline constexpr Arithmetic Arithmetic::bf16{kBf16};
+inline constexpr Arithmetic Arithmetic::fp24R300{kFp24R300};
+
+}  // namespace etalon

@@ -1,0 +1,7 @@
+#include "numeric/emulated_format.h"
+
+namespace etalon {
+
+thread_local constinit EmulatedFormat emulatedFormat{kFp32};
+
+}  // namespace etalon
