@@ -91,7 +91,7 @@ void addLightIrradiance(const Way& way) {
             .bytes_touched = size_t{kShownWidth} * kShownHeight * 3 * sizeof(double)};
         measure(state, amount, [&] {
             return passes->irradianceOfLights(lights, {Mapping::latLong, kShownWidth, kShownHeight},
-                                             way.threads);
+                                              way.threads);
         });
     });
 }

@@ -96,8 +96,7 @@ BitPlane emulatedElementaryPlane(Format format, std::string name, const NumberTa
 
 std::vector<BitPlane> elementary(const NumberTables& tables) {
     return {elementaryPlane<Native<float>>("float", tables),
-            elementaryPlane<Native<double>>("double", tables),
-            emulatedElementaryPlane(kFp16, "fp16", tables),
+            elementaryPlane<Native<double>>("double", tables), emulatedElementaryPlane(kFp16, "fp16", tables),
             emulatedElementaryPlane(kBf16, "bf16", tables),
             emulatedElementaryPlane(kFp24R300, "fp24-r300", tables)};
 }

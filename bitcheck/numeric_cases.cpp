@@ -136,7 +136,8 @@ void addNumericCases(std::vector<BitCase>& cases) {
                                           planeOf("sky", scene.environment.latLong)};
          }});
     cases.push_back({"numbers/arithmetic", "+ - * / sqrt floor min clamp in every number format", true, false,
-                     false, [](const RasterOptions&) { return levelPasses<NumberPasses>().arithmetic(tables()); }});
+                     false,
+                     [](const RasterOptions&) { return levelPasses<NumberPasses>().arithmetic(tables()); }});
     cases.push_back({"numbers/elementary", "atan2Of and powOf in lanes", true, false, false,
                      [](const RasterOptions&) { return levelPasses<NumberPasses>().elementary(tables()); }});
     cases.push_back({"numbers/scalar", "sinOf, cosOf, expOf", false, false, false,
@@ -157,7 +158,8 @@ void addNumericCases(std::vector<BitCase>& cases) {
                              for (float& texel : face.values())
                                  texel = static_cast<float>(random.uniform(0, 4));
                          const Image<float> sky = skyImage(24, 12);
-                         return levelPasses<NumberPasses>().cubeSampling(tables(), TextureView(cube), TextureView(sky));
+                         return levelPasses<NumberPasses>().cubeSampling(tables(), TextureView(cube),
+                                                                         TextureView(sky));
                      }});
 }
 

@@ -289,8 +289,9 @@ void printHardware(const NamedProbe& n, const char* block) {
         for (int c = 0; c < 3; c++) printText(" {:+.3f} % |", 100 * (mean[c] / reference[c] - 1));
         printText("\n");
     };
-    for (const auto& [name, arithmetic] : {std::pair("r300-fp24", Arithmetic::fp24R300), std::pair("nv40-fp16", Arithmetic::fp16Nv40),
-                                           std::pair("nv40-fp32", Arithmetic::fp32Nv40)}) {
+    for (const auto& [name, arithmetic] :
+         {std::pair("r300-fp24", Arithmetic::fp24R300), std::pair("nv40-fp16", Arithmetic::fp16Nv40),
+          std::pair("nv40-fp32", Arithmetic::fp32Nv40)}) {
         Arithmetics all;
         all.fill(arithmetic);
         row(formatText("**{}**", name), all);

@@ -119,9 +119,10 @@ std::vector<VertexRadiance> lightVerticesOf(const ShadeJob& job,
         const SurfaceMaterial& material = job.scene->materials[job.scene->instances[i].material];
         parallelFor((count + kVerticesPerTask - 1) / kVerticesPerTask, job.threads, [&](size_t task) {
             const size_t begin = task * kVerticesPerTask;
-            levelPasses<VertexLightingPasses>().light(*job.profile, *job.scene, material, placed, job.view->eye, begin,
-                                           std::min(kVerticesPerTask, count - begin),
-                                           occlusion.empty() ? nullptr : &occlusion[i], radiance[i]);
+            levelPasses<VertexLightingPasses>().light(
+                *job.profile, *job.scene, material, placed, job.view->eye, begin,
+                std::min(kVerticesPerTask, count - begin), occlusion.empty() ? nullptr : &occlusion[i],
+                radiance[i]);
         });
     }
     return radiance;
@@ -132,7 +133,8 @@ CubeMap<float> environmentCube(const SurfaceEnvironment& environment, const Prof
     options.filter = profile.textureFilter;
     options.fractionBits = profile.textureFractionBits;
     const int size = std::max(1, environment.latLong.width() / 4);
-    return passesIn<MappingPasses>(profile.fragment)->cubeFromLatLong(environment.latLong, size, options, threads);
+    return passesIn<MappingPasses>(profile.fragment)
+        ->cubeFromLatLong(environment.latLong, size, options, threads);
 }
 
 }  // namespace etalon

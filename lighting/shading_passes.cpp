@@ -7,7 +7,9 @@ namespace etalon {
 
 template <class T>
 constexpr ShadingPasses kPassesOver<ShadingPasses, T> = {
-    [](const ShadeJob& job) -> std::unique_ptr<TileShader> { return std::make_unique<TileShaderOf<T>>(job); }};
+    [](const ShadeJob& job) -> std::unique_ptr<TileShader> {
+        return std::make_unique<TileShaderOf<T>>(job);
+    }};
 template const ShadingPasses& ETALON_LEVEL::passesOf<ShadingPasses>(NumberType);
 
 }  // namespace etalon

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include "numeric/format.h"
 
@@ -38,5 +39,9 @@ inline constexpr Arithmetic Arithmetic::fp16{kFp16};
 inline constexpr Arithmetic Arithmetic::fp16Nv40{kFp16Nv40};
 inline constexpr Arithmetic Arithmetic::bf16{kBf16};
 inline constexpr Arithmetic Arithmetic::fp24R300{kFp24R300};
+
+// "fp64", "truth", the name of a named format (numeric/format.h), or a format's digits: "11 bits, exponents -14 to
+// 15, nearest-even, subnormals kept, infinity".
+std::string arithmeticName(const Arithmetic& arithmetic);
 
 }  // namespace etalon

@@ -32,12 +32,12 @@ namespace etalon {
 template <class Table, class T>
 extern const Table kPassesOver;
 
-#define ETALON_DECLARE_LEVEL(level)           \
-    namespace level {                         \
-    template <class Table>                    \
-    const Table& passesOf(NumberType type);   \
-    template <class Table>                    \
-    const Table& passesOf();                  \
+#define ETALON_DECLARE_LEVEL(level)         \
+    namespace level {                       \
+    template <class Table>                  \
+    const Table& passesOf(NumberType type); \
+    template <class Table>                  \
+    const Table& passesOf();                \
     }
 ETALON_DECLARE_LEVEL(level_truth)
 ETALON_DECLARE_LEVEL(level_scalar)
@@ -58,11 +58,11 @@ const Table& passesOf(NumberType type) {
 #else
     switch (type) {
         case NumberType::fp64:
-            return kPassesOver<Table, Native<double>>;
+            return kPassesOver<Table, Native<double> >;
         case NumberType::emulated:
-            return kPassesOver<Table, Emulated<Native<double>>>;
+            return kPassesOver<Table, Emulated<Native<double> > >;
         default:
-            return kPassesOver<Table, Native<float>>;
+            return kPassesOver<Table, Native<float> >;
     }
 #endif
 }

@@ -167,7 +167,8 @@ struct Emulated {
     }
     // Each lane rounded once to the format.
     explicit Emulated(D value) requires(!std::same_as<D, double>)
-        : v(perRegister([](auto part) { return EmulatedOperations<decltype(part)>::rounded(part); }, value)) {}
+        : v(perRegister([](auto part) { return EmulatedOperations<decltype(part)>::rounded(part); }, value)) {
+    }
 
     // Takes a value that is a number of the format already (in each lane); not checked.
     static Emulated ofRepresentable(D value) {
@@ -177,9 +178,15 @@ struct Emulated {
     }
 
     friend Emulated operator+(Emulated a, Emulated b) { return ofRepresentable(Operations::add(a.v, b.v)); }
-    friend Emulated operator-(Emulated a, Emulated b) { return ofRepresentable(Operations::subtract(a.v, b.v)); }
-    friend Emulated operator*(Emulated a, Emulated b) { return ofRepresentable(Operations::multiply(a.v, b.v)); }
-    friend Emulated operator/(Emulated a, Emulated b) { return ofRepresentable(Operations::divide(a.v, b.v)); }
+    friend Emulated operator-(Emulated a, Emulated b) {
+        return ofRepresentable(Operations::subtract(a.v, b.v));
+    }
+    friend Emulated operator*(Emulated a, Emulated b) {
+        return ofRepresentable(Operations::multiply(a.v, b.v));
+    }
+    friend Emulated operator/(Emulated a, Emulated b) {
+        return ofRepresentable(Operations::divide(a.v, b.v));
+    }
     friend Emulated operator-(Emulated a) { return ofRepresentable(-a.v); }
 
     friend auto operator<(Emulated a, Emulated b) { return a.v < b.v; }
@@ -193,7 +200,8 @@ struct Emulated {
 // Per lane: c ? a : b.
 inline Emulated<double> select(bool c, Emulated<double> a, Emulated<double> b) { return c ? a : b; }
 template <int N>
-Emulated<Lanes<double, N>> select(Mask<double, N> c, Emulated<Lanes<double, N>> a, Emulated<Lanes<double, N>> b) {
+Emulated<Lanes<double, N>> select(Mask<double, N> c, Emulated<Lanes<double, N>> a,
+                                  Emulated<Lanes<double, N>> b) {
     return Emulated<Lanes<double, N>>::ofRepresentable(select(c, a.v, b.v));
 }
 // The square root rounded once. -0 gives -0; a negative number gives NaN, and +0 where the format has no NaN.
@@ -226,7 +234,9 @@ auto toInteger(Emulated<D> a) {
 // The integer rounded once to the format.
 template <class D>
 struct FromInteger<Emulated<D>> {
-    static Emulated<D> of(typename NumberTraits<Emulated<D>>::Integer a) { return Emulated<D>(FromInteger<D>::of(a)); }
+    static Emulated<D> of(typename NumberTraits<Emulated<D>>::Integer a) {
+        return Emulated<D>(FromInteger<D>::of(a));
+    }
 };
 
 template <class D>

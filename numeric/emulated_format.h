@@ -53,13 +53,15 @@ struct EmulatedFormat {
     static constexpr int kDoubleBits = 53;
 
     static constexpr double overflowOf(Format f, bool isPositive) {
-        const bool isCut = f.rounding == Rounding::towardZero || f.rounding == (isPositive ? Rounding::down : Rounding::up);
+        const bool isCut =
+            f.rounding == Rounding::towardZero || f.rounding == (isPositive ? Rounding::down : Rounding::up);
         return isCut || f.overflow == Overflow::saturate ? largestFinite(f)
                                                          : std::numeric_limits<double>::infinity();
     }
     static constexpr Path pathOf(Format f) {
         if (f.rounding == Rounding::nearestEven) {
-            const bool hasRangeOfFloat = f.minExponent == kFp32.minExponent && f.maxExponent == kFp32.maxExponent &&
+            const bool hasRangeOfFloat = f.minExponent == kFp32.minExponent &&
+                                         f.maxExponent == kFp32.maxExponent &&
                                          f.overflow == Overflow::infinity;
             return f.significandBits == kFp32.significandBits && hasRangeOfFloat ? Path::binary32
                                                                                  : Path::nearestEven;
@@ -73,12 +75,13 @@ struct EmulatedFormat {
 
 extern thread_local constinit EmulatedFormat emulatedFormat [[gnu::tls_model("initial-exec")]];
 
-
 // Sets the format of the calling thread until the scope ends. The format is one that isSupported has.
 class EmulatedScope {
   public:
     explicit EmulatedScope(Format format) : EmulatedScope(EmulatedFormat(format)) {}
-    explicit EmulatedScope(const EmulatedFormat& format) : before_(emulatedFormat) { emulatedFormat = format; }
+    explicit EmulatedScope(const EmulatedFormat& format) : before_(emulatedFormat) {
+        emulatedFormat = format;
+    }
     ~EmulatedScope() { emulatedFormat = before_; }
     EmulatedScope(const EmulatedScope&) = delete;
     EmulatedScope& operator=(const EmulatedScope&) = delete;

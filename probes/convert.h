@@ -75,7 +75,7 @@ struct LatLongFromCube {
 // convention of [Pedersen2008, Listing 6.1] (Mapping::latLongPedersen; row 0 on top) with sines and cosines
 // in the arithmetic, as a GPU computes them.
 Image<float> latLongFromCube(const CubeMap<float>& cube, int width, int height,
-                             const LatLongFromCube& options = {},
-                             Arithmetic arithmetic = Arithmetic::fp32, int threads = 0);
+                             const LatLongFromCube& options = {}, Arithmetic arithmetic = Arithmetic::fp32,
+                             int threads = 0);
 
 }  // namespace etalon

@@ -98,7 +98,8 @@ std::vector<glm::dvec3> evaluateHarmonicsOver(const SphericalHarmonics& harmonic
 }  // namespace
 
 template <class T>
-constexpr HarmonicsPasses kPassesOver<HarmonicsPasses, T> = {projectHarmonicsOver<T>, evaluateHarmonicsOver<T>};
+constexpr HarmonicsPasses kPassesOver<HarmonicsPasses, T> = {projectHarmonicsOver<T>,
+                                                             evaluateHarmonicsOver<T>};
 template const HarmonicsPasses& ETALON_LEVEL::passesOf<HarmonicsPasses>(NumberType);
 
 }  // namespace etalon

@@ -40,8 +40,7 @@ Probe probeOfValues(const ProbeShape& shape, std::span<const glm::dvec3> values,
     return result;
 }
 
-Probe irradianceProbe(const Probe& probe, const ProbeShape& shape, Arithmetic arithmetic,
-                      int threads) {
+Probe irradianceProbe(const Probe& probe, const ProbeShape& shape, Arithmetic arithmetic, int threads) {
     return probeOfValues(shape, irradianceAt(probe, texelDirections(shape), arithmetic, threads), probe);
 }
 
@@ -53,8 +52,7 @@ Probe irradianceProbe(const SphericalHarmonics& radiance, const ProbeShape& shap
         like);
 }
 
-Probe blurredDiffuseMap(const Probe& cube, int radius, double sigma_px, Arithmetic arithmetic,
-                        int threads) {
+Probe blurredDiffuseMap(const Probe& cube, int radius, double sigma_px, Arithmetic arithmetic, int threads) {
     checkProbe(cube);
     ETALON_CHECK(cube.shape.mapping == Mapping::cube, "mapping {}", static_cast<int>(cube.shape.mapping));
     Probe map = cube;

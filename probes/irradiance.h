@@ -47,8 +47,7 @@ Probe probeOfValues(const ProbeShape& shape, std::span<const glm::dvec3> values,
 
 // Irradiance over normals as a probe, exact as irradianceAt() and from the radiance's spherical harmonics
 // (degree 2: within 1 % of the mean for most radiance [RamamoorthiHanrahan2001]). Values are stored as float.
-Probe irradianceProbe(const Probe& probe, const ProbeShape& shape, Arithmetic arithmetic,
-                      int threads = 0);
+Probe irradianceProbe(const Probe& probe, const ProbeShape& shape, Arithmetic arithmetic, int threads = 0);
 Probe irradianceProbe(const SphericalHarmonics& radiance, const ProbeShape& shape, const Probe& like,
                       Arithmetic arithmetic, int threads = 0);
 

@@ -113,7 +113,8 @@ SphericalHarmonics projectLatLongOver(const Probe& probe, int degree, int thread
 }  // namespace
 
 template <>
-constexpr LatLongHarmonicsPasses kPassesOver<LatLongHarmonicsPasses, void> = {projectLatLongOver<Native<double>>};
+constexpr LatLongHarmonicsPasses kPassesOver<LatLongHarmonicsPasses, void> = {
+    projectLatLongOver<Native<double>>};
 template const LatLongHarmonicsPasses& ETALON_LEVEL::passesOf<LatLongHarmonicsPasses>();
 
 }  // namespace etalon

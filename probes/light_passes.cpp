@@ -7,7 +7,8 @@
 namespace etalon {
 
 template <class T>
-constexpr LightPasses kPassesOver<LightPasses, T> = {roundedValues<T>, summedArea<T>, boxSums<T>, irradianceOfLights<T>};
+constexpr LightPasses kPassesOver<LightPasses, T> = {roundedValues<T>, summedArea<T>, boxSums<T>,
+                                                     irradianceOfLights<T>};
 template const LightPasses& ETALON_LEVEL::passesOf<LightPasses>(NumberType);
 
 }  // namespace etalon

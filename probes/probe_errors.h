@@ -28,7 +28,8 @@ constexpr ProbeErrors probeErrors(const Arithmetic& arithmetic) {
     }
     const Format& format = arithmetic.format;
     if (format == kFp24R300) return {6e-4, 4e-4, 2e-4};
-    if (format.rounding == Rounding::nearestEven && format.significandBits == kFp32.significandBits) return kOfFp32;
+    if (format.rounding == Rounding::nearestEven && format.significandBits == kFp32.significandBits)
+        return kOfFp32;
     if (format.rounding == Rounding::nearestEven && format.significandBits == kFp16.significandBits)
         return {8e-3, 4e-3, 1e-3};
     if (format == kBf16) return kOfBf16;

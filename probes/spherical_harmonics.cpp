@@ -59,8 +59,7 @@ glm::dvec3 evaluate(const SphericalHarmonics& harmonics, const glm::dvec3& direc
     return kernel.sumOfHarmonics(direction, harmonics.degree);
 }
 
-SphericalHarmonics projectHarmonics(const Probe& probe, int degree, Arithmetic arithmetic,
-                                    int threads) {
+SphericalHarmonics projectHarmonics(const Probe& probe, int degree, Arithmetic arithmetic, int threads) {
     return passesIn<HarmonicsPasses>(arithmetic)->project(probe, degree, threads);
 }
 
@@ -68,14 +67,15 @@ SphericalHarmonics projectHarmonics(const Probe& probe, int degree, int threads)
     if (probe.shape.mapping != Mapping::latLong)
         return projectHarmonics(probe, degree, Arithmetic::fp64, threads);
     // The third axis of the sums is the image's vertical axis: they see directions (z, x, y) for (x, y, z).
-    const SphericalHarmonics aboutVertical = levelPasses<LatLongHarmonicsPasses>().project(probe, degree, threads);
+    const SphericalHarmonics aboutVertical =
+        levelPasses<LatLongHarmonicsPasses>().project(probe, degree, threads);
     const glm::dmat3 unturned(glm::dvec3(0, 0, 1), glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0));
     return rotateHarmonics(aboutVertical, probe.rotation * unturned);
 }
 
 std::vector<glm::dvec3> evaluateHarmonics(const SphericalHarmonics& harmonics,
-                                          std::span<const glm::dvec3> directions,
-                                          Arithmetic arithmetic, int threads) {
+                                          std::span<const glm::dvec3> directions, Arithmetic arithmetic,
+                                          int threads) {
     return passesIn<HarmonicsPasses>(arithmetic)->evaluate(harmonics, directions, threads);
 }
 

@@ -121,8 +121,7 @@ SphericalHarmonics projectHarmonics(const Probe& probe, int degree, int threads 
 // of texels, partial sum j adds the texels j, j + 16, j + 32, ... in order, starting from 0; then j + 8 is
 // added to j, and so on down to one. The sums of the rows, of all layers in order, are added in pairs of
 // neighbours, again and again, an odd last one kept as it is.
-SphericalHarmonics projectHarmonics(const Probe& probe, int degree, Arithmetic arithmetic,
-                                    int threads = 0);
+SphericalHarmonics projectHarmonics(const Probe& probe, int degree, Arithmetic arithmetic, int threads = 0);
 
 // Largest error of a coefficient against the same sum in exact arithmetic, relative to the largest magnitude
 // of the probe's radiance.
@@ -130,7 +129,7 @@ inline constexpr double kProjectionDoubleError = 1e-13;
 
 // The function at unit directions, in an arithmetic.
 std::vector<glm::dvec3> evaluateHarmonics(const SphericalHarmonics& harmonics,
-                                          std::span<const glm::dvec3> directions,
-                                          Arithmetic arithmetic, int threads = 0);
+                                          std::span<const glm::dvec3> directions, Arithmetic arithmetic,
+                                          int threads = 0);
 
 }  // namespace etalon

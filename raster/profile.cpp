@@ -9,8 +9,7 @@ namespace {
 // R300 and NV40 as far as their vendors documented them (docs/references.md).
 constexpr std::array<Profile, 10> kProfiles = {{
     {"f32", "IEEE single precision, exact texture fractions, D32F", Arithmetic::fp32},
-    {"f64", "IEEE double precision, exact texture fractions, D32F", Arithmetic::fp64,
-     RasterReal::fp64},
+    {"f64", "IEEE double precision, exact texture fractions, D32F", Arithmetic::fp64, RasterReal::fp64},
     {"truth", "192-bit arithmetic for fragments, double for vertices; slow, to measure the others against",
      Arithmetic::truth, RasterReal::fp64},
     {"d3d11", "single precision with flushed subnormals, 8-bit texture fractions, D24 [documented]",
@@ -19,16 +18,14 @@ constexpr std::array<Profile, 10> kProfiles = {{
      "single precision, 4-bit subpixels and texture fractions, D16: the least a device may offer",
      Arithmetic::fp32, RasterReal::fp32, DepthFormat::d16, DepthRounding::exact, 4, 4},
     {"nv40-fp32", "GeForce 6 single precision; flushed subnormals and nearest-even are assumed, D24",
-     Arithmetic::fp32Nv40, RasterReal::fp32, DepthFormat::d24, DepthRounding::exact, 8, 8,
-     Filter::nearest},
+     Arithmetic::fp32Nv40, RasterReal::fp32, DepthFormat::d24, DepthRounding::exact, 8, 8, Filter::nearest},
     {"nv40-fp16", "GeForce 6 half precision; nearest-even is assumed, 8-bit texture fractions, D24",
      Arithmetic::fp16Nv40, RasterReal::fp32, DepthFormat::d24, DepthRounding::exact, 8, 8},
     {"r300-fp24",
      "Radeon 9700-X800: 24-bit fragments, toward zero, float textures point-sampled, D24; division is one "
      "exact step, "
      "not the documented reciprocal and product",
-     Arithmetic::fp24R300, RasterReal::fp32, DepthFormat::d24, DepthRounding::exact, 8, 8,
-     Filter::nearest},
+     Arithmetic::fp24R300, RasterReal::fp32, DepthFormat::d24, DepthRounding::exact, 8, 8, Filter::nearest},
     {"fp16", "IEEE half precision for fragments, single for vertices, D32F", Arithmetic::fp16},
     {"bf16", "bfloat16 for fragments, single for vertices, D32F", Arithmetic::bf16},
 }};

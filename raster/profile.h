@@ -14,8 +14,8 @@ namespace etalon {
 
 struct Profile {
     std::string_view name;
-    std::string_view meaning;  // one line, with what is documented and what is assumed
-    Arithmetic fragment;  // fragments and texels
+    std::string_view meaning;              // one line, with what is documented and what is assumed
+    Arithmetic fragment;                   // fragments and texels
     RasterReal vertex = RasterReal::fp32;  // vertex transforms and depth
     DepthFormat depth = DepthFormat::d32f;
     DepthRounding depthRounding = DepthRounding::exact;

@@ -593,7 +593,8 @@ void ShadowLookupOf<T>::findDisc(const LitPoints& points, size_t first, const Pl
 
 template <class T>
 constexpr LookupPasses kPassesOver<LookupPasses, T> = {
-    [](const ShadowMap& map, int fractionBits, int threads, WindowSearch search) -> std::unique_ptr<ShadowLookup> {
+    [](const ShadowMap& map, int fractionBits, int threads,
+       WindowSearch search) -> std::unique_ptr<ShadowLookup> {
         return std::make_unique<ShadowLookupOf<T>>(map, fractionBits, threads, search);
     }};
 template const LookupPasses& ETALON_LEVEL::passesOf<LookupPasses>(NumberType);

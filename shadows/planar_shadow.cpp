@@ -300,7 +300,8 @@ PlanarShadow planarShadow(const PlanarReceiver& receiver, const PlanarCasters& c
     if (options.blurSigma_m == 0) return result;
     const double sigma = options.blurSigma_m / counts.grid.texel_m;
     const int radius = static_cast<int>(std::ceil(kPlanarBlurReach * sigma));
-    result.shadow = passesIn<BlurPasses>(profile.fragment)->blur(result.shadow, radius, sigma, raster.threads);
+    result.shadow =
+        passesIn<BlurPasses>(profile.fragment)->blur(result.shadow, radius, sigma, raster.threads);
     for (float& value : result.shadow.values()) value = std::min(value, 1.0f);
     return result;
 }

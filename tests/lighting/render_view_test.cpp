@@ -293,7 +293,9 @@ TEST_CASE("FlushingSubnormalsChangesNoBitOfTheShading") {
     {
         const FlushToZeroScope flush;
         ShadeStatistics statistics;
-        passesIn<ShadingPasses>(profile.fragment)->makeTileShader(job)->run(0, {0, 0, 64, 64}, flushed, statistics);
+        passesIn<ShadingPasses>(profile.fragment)
+            ->makeTileShader(job)
+            ->run(0, {0, 0, 64, 64}, flushed, statistics);
     }
     for (size_t o = 0; o < kShadeOutputs; o++) CHECK(flushed.images[o] == kept.images[o]);
 }

@@ -86,14 +86,13 @@ glm::dmat3 rotationAboutAxis(int axis, double angle_rad) {
 
 TEST_CASE("ConstantProbesKeepTheirConstantInEveryMappingAndArithmetic") {
     for (const Arithmetic arithmetic :
-         {Arithmetic::truth, Arithmetic::fp64, Arithmetic::fp32,
-          Arithmetic::fp32Flush, Arithmetic::fp32Nv40, Arithmetic::fp16,
-          Arithmetic::fp16Nv40, Arithmetic::bf16, Arithmetic::fp24R300})
+         {Arithmetic::truth, Arithmetic::fp64, Arithmetic::fp32, Arithmetic::fp32Flush, Arithmetic::fp32Nv40,
+          Arithmetic::fp16, Arithmetic::fp16Nv40, Arithmetic::bf16, Arithmetic::fp24R300})
         for (const Mapping from : kMappings)
             for (const Mapping to : kMappings)
                 for (const Resampling resampling :
                      {Resampling::nearest, Resampling::bilinear, Resampling::area}) {
-                    CAPTURE(static_cast<int>(arithmetic));
+                    CAPTURE(arithmeticName(arithmetic));
                     CAPTURE(static_cast<int>(from));
                     CAPTURE(static_cast<int>(to));
                     CAPTURE(static_cast<int>(resampling));
@@ -122,7 +121,8 @@ TEST_CASE("ConversionToACubeIsThePassOfMirrors") {
     for (const Arithmetic arithmetic : {Arithmetic::fp32, Arithmetic::fp16}) {
         for (const int size : {9, 16}) {
             const Probe cube = convertProbe(source, {{Mapping::cube, size, size}}, arithmetic, 2);
-            CHECK(sameBits(cube, probeOf(passesIn<MappingPasses>(arithmetic)->cubeFromLatLong(image, size, {}, 1))));
+            CHECK(sameBits(
+                cube, probeOf(passesIn<MappingPasses>(arithmetic)->cubeFromLatLong(image, size, {}, 1))));
         }
     }
 }
@@ -136,8 +136,7 @@ TEST_CASE("MirroredTexelsHaveTheBitsOfTheirOwnDirections") {
     for (const Mapping to : kMappings)
         for (const int size : {1, 2, 6, 16, 64, 100})
             for (const double distance_radii : {std::numeric_limits<double>::infinity(), 3.0})
-                for (const Arithmetic arithmetic :
-                     {Arithmetic::fp32, Arithmetic::fp64, Arithmetic::fp16}) {
+                for (const Arithmetic arithmetic : {Arithmetic::fp32, Arithmetic::fp64, Arithmetic::fp16}) {
                     if (arithmetic == Arithmetic::fp16 && size > 16) continue;
                     for (const Resampling resampling : {Resampling::bilinear, Resampling::nearest}) {
                         ConversionJob job;

@@ -141,7 +141,7 @@ TEST_CASE("HarmonicsOfFetchedProbesKeepTheBoundOfEachArithmetic") {
     for (size_t p = 0; p < probes.size(); p++)
         for (const Arithmetic a : kAllArithmetics) {
             CAPTURE(kNames[p]);
-            CAPTURE(static_cast<int>(a));
+            CAPTURE(arithmeticName(a));
             const SphericalHarmonics f = projectHarmonics(probes[p], kDegree, a);
             double mean = 0;
             for (size_t c = 0; c < 3; c++) mean = std::max(mean, asDouble(direct[p][c]));

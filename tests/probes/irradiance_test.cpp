@@ -74,13 +74,12 @@ TEST_CASE("WhiteFurnaceIsPi") {
         CHECK(std::abs(exact[4].x / kPi - 1) <= furnace.quadrature);
         CHECK(std::abs(exact[5].x / kPi - (1 - taken)) <= furnace.quadrature);
         // From harmonics there is no midpoint rule in the cosine.
-        const SphericalHarmonics f =
-            irradianceOfHarmonics(projectHarmonics(white, 2, Arithmetic::fp64));
+        const SphericalHarmonics f = irradianceOfHarmonics(projectHarmonics(white, 2, Arithmetic::fp64));
         const std::vector<glm::dvec3> smooth = evaluateHarmonics(f, normals, kDouble);
         if (taken == 0)
             for (const glm::dvec3& e : smooth) CHECK(std::abs(e.x / kPi - 1) <= furnace.quadrature);
         for (const Arithmetic a : kAllArithmetics) {
-            CAPTURE(static_cast<int>(a));
+            CAPTURE(arithmeticName(a));
             const double error = largestRelative(irradianceAt(white, normals, a), exact);
             CAPTURE(error);
             CHECK(error <= probeErrors(a).irradiance);
@@ -94,7 +93,7 @@ TEST_CASE("IrradianceInEveryArithmeticKeepsItsBound") {
     const std::vector<glm::dvec3> normals = someNormals();
     const std::vector<glm::dvec3> exact = irradianceAt(probe, normals, Arithmetic::truth);
     for (const Arithmetic a : kAllArithmetics) {
-        CAPTURE(static_cast<int>(a));
+        CAPTURE(arithmeticName(a));
         const double error = largestRelative(irradianceAt(probe, normals, a), exact);
         CAPTURE(error);
         CHECK(error <= probeErrors(a).irradiance);
@@ -144,8 +143,7 @@ TEST_CASE("IrradianceProbesShowTheirDirections") {
     const Probe probe = randomProbe({Mapping::latLong, 16, 8}, 6);
     const ProbeShape shape{Mapping::cube, 3, 3};
     const Probe map = irradianceProbe(probe, shape, Arithmetic::fp32);
-    const std::vector<glm::dvec3> values =
-        irradianceAt(probe, texelDirections(shape), Arithmetic::fp32);
+    const std::vector<glm::dvec3> values = irradianceAt(probe, texelDirections(shape), Arithmetic::fp32);
     CHECK(map.shape == shape);
     CHECK(map.radiance[1].at(2, 1, 0) == static_cast<float>(values[9 + 5].x));
     const Probe smooth = irradianceProbe(projectHarmonics(probe, 4), shape, probe, Arithmetic::fp32);
@@ -157,7 +155,7 @@ TEST_CASE("ExtremeProbesHaveFiniteIrradiance") {
     const std::vector<glm::dvec3> normals = someNormals();
     for (const Arithmetic a : kAllArithmetics) {
         const bool isHalf = a == Arithmetic::fp16 || a == Arithmetic::fp16Nv40;
-        CAPTURE(static_cast<int>(a));
+        CAPTURE(arithmeticName(a));
         const auto check = [&](const Probe& probe) {
             const std::vector<glm::dvec3> values = irradianceAt(probe, normals, a);
             const std::vector<glm::dvec3> exact = irradianceAt(probe, normals, kDouble);
@@ -191,13 +189,11 @@ TEST_CASE("ExtremeProbesHaveFiniteIrradiance") {
 }
 
 TEST_CASE("BlurredMapOfAConstantIsTheConstant") {
-    const Probe map =
-        blurredDiffuseMap(constantProbe({Mapping::cube, 8, 8}, 3), 5, 2.5, Arithmetic::fp32);
+    const Probe map = blurredDiffuseMap(constantProbe({Mapping::cube, 8, 8}, 3), 5, 2.5, Arithmetic::fp32);
     for (const Image<float>& face : map.radiance)
         for (const float v : face.values()) CHECK(std::abs(v / 3 - 1) < 1e-6);
-    CHECK_THROWS_AS(
-        blurredDiffuseMap(constantProbe({Mapping::latLong, 8, 4}, 3), 5, 2.5, Arithmetic::fp32),
-        PreconditionError);
+    CHECK_THROWS_AS(blurredDiffuseMap(constantProbe({Mapping::latLong, 8, 4}, 3), 5, 2.5, Arithmetic::fp32),
+                    PreconditionError);
 }
 
 TEST_CASE("BlurredMapIsNoIrradiance") {

@@ -76,7 +76,8 @@ TEST_CASE("MeanIrradianceOfLightsIsPiWhereverTheyAre") {
 // Not the error of the midpoint rule but that of each arithmetic.
 TEST_CASE("MeanIrradianceKeepsToTheBoundOfEachArithmetic") {
     for (const Arithmetic arithmetic :
-         {Arithmetic::truth, Arithmetic::fp64, Arithmetic::fp32, Arithmetic::fp32Flush, Arithmetic::fp32Nv40, Arithmetic::fp24R300, Arithmetic::fp16, Arithmetic::fp16Nv40, Arithmetic::bf16}) {
+         {Arithmetic::truth, Arithmetic::fp64, Arithmetic::fp32, Arithmetic::fp32Flush, Arithmetic::fp32Nv40,
+          Arithmetic::fp24R300, Arithmetic::fp16, Arithmetic::fp16Nv40, Arithmetic::bf16}) {
         double worst = 0.0;
         for (const int count : {2, 16, 64}) {
             if (arithmetic == Arithmetic::truth && count > 2) continue;
@@ -88,7 +89,7 @@ TEST_CASE("MeanIrradianceKeepsToTheBoundOfEachArithmetic") {
                     worst,
                     std::abs(weightedMean(irradiance, kShape, c) / weightedMean(exact, kShape, c) - 1.0));
         }
-        INFO(static_cast<int>(arithmetic) << ": " << worst);
+        INFO(arithmeticName(arithmetic) << ": " << worst);
         CHECK(worst <= probeErrors(arithmetic).meanOfLights);
         if (arithmetic != Arithmetic::truth && arithmetic != Arithmetic::fp64)
             CHECK(worst >= 0.1 * probeErrors(arithmetic).meanOfLights);

@@ -13,9 +13,8 @@
 namespace etalon {
 
 inline constexpr Arithmetic kAllArithmetics[] = {
-    Arithmetic::truth,     Arithmetic::fp64,     Arithmetic::fp32,
-    Arithmetic::fp32Flush, Arithmetic::fp32Nv40, Arithmetic::fp16,
-    Arithmetic::fp16Nv40,  Arithmetic::bf16,     Arithmetic::fp24R300};
+    Arithmetic::truth, Arithmetic::fp64,     Arithmetic::fp32, Arithmetic::fp32Flush, Arithmetic::fp32Nv40,
+    Arithmetic::fp16,  Arithmetic::fp16Nv40, Arithmetic::bf16, Arithmetic::fp24R300};
 
 // Every texel shows value(layer, x, y, channel).
 template <class F>

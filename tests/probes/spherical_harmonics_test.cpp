@@ -201,7 +201,7 @@ TEST_CASE("EvaluationInEveryArithmeticIsNearTheFunction") {
         for (size_t i = 0; i < directions.size(); i++)
             for (int c = 0; c < 3; c++)
                 worst = std::max(worst, std::abs(values[i][c] - evaluate(f, directions[i])[c]));
-        CAPTURE(static_cast<int>(a));
+        CAPTURE(arithmeticName(a));
         CHECK(worst <= 8 * probeErrors(a).harmonic);
     }
 }
@@ -217,7 +217,7 @@ TEST_CASE("WhiteFurnaceHasTheMeanOfTwoRootPi") {
         CHECK(std::abs(projectHarmonics(white, 4).coefficients[0].x / expected - 1) <= 1e-14);
         for (const Arithmetic a : kAllArithmetics) {
             const SphericalHarmonics f = projectHarmonics(white, 4, a);
-            CAPTURE(static_cast<int>(a));
+            CAPTURE(arithmeticName(a));
             CAPTURE(f.coefficients[0].x / expected - 1);
             CHECK(std::abs(f.coefficients[0].x / expected - 1) <= probeErrors(a).harmonic);
             for (size_t i = 1; i < f.coefficients.size(); i++)
@@ -231,7 +231,7 @@ TEST_CASE("ExtremeProbesHaveFiniteHarmonicsThatKeepTheirEnergy") {
     const double largestHalf = 65504;
     for (const Arithmetic a : kAllArithmetics) {
         const bool isHalf = a == Arithmetic::fp16 || a == Arithmetic::fp16Nv40;
-        CAPTURE(static_cast<int>(a));
+        CAPTURE(arithmeticName(a));
         const auto check = [&](const Probe& probe) {
             // Half floats limit radiance to their largest number.
             Probe limited = probe;

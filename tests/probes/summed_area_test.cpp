@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "numeric/door.h"
+#include "numeric/rounded.h"
 #include "numeric/truth.h"
 #include "probes/energy_lanes.h"
 #include "probes/light_passes.h"
