@@ -1,6 +1,8 @@
 #include <memory>
 
-#include "app/scene_options.h"
+#include "app/golden_support.h"
+#include "app/machine_options.h"
+#include "app/output.h"
 #include "app/verbs.h"
 #include "numeric/text.h"
 
@@ -34,15 +36,14 @@ ExitCode runAccept(const AcceptOptions& options, const GoldenSupport& support) {
 
 }  // namespace
 
-void addAccept(CLI::App& app, ExitCode& exitCode, const GoldenSupport& support) {
+void addAccept(Verb& command, const GoldenSupport& support) {
     const auto options = std::make_shared<AcceptOptions>();
-    CLI::App* verb =
-        app.add_subcommand("accept", "Render golden cases and make the result the accepted one.");
-    verb->add_option("PATTERN", options->pattern, "Names of cases: * ? [...]")->required();
-    verb->add_option("--reason", options->reason, "Why the images change; kept in the manifest")->required();
-    verb->add_option("--manifest", options->manifest, "Manifest of the golden images")->capture_default_str();
-    addIsaOption(*verb);
-    verb->callback([options, &exitCode, &support] { exitCode = runAccept(*options, support); });
+    Verb& verb = command.addVerb("accept", "Render golden cases and make the result the accepted one.");
+    verb.add("PATTERN", options->pattern, "Names of cases: * ? [...]").required();
+    verb.add("--reason", options->reason, "Why the images change; kept in the manifest").required();
+    verb.add("--manifest", options->manifest, "Manifest of the golden images");
+    addIsaOption(verb);
+    verb.onRun([options, &support] { return runAccept(*options, support); });
 }
 
 }  // namespace etalon

@@ -8,10 +8,11 @@
 #include <optional>
 #include <span>
 
-#include "app/report.h"
-#include "app/scene_options.h"
+#include "app/machine_options.h"
+#include "app/output.h"
 #include "app/verbs.h"
 #include "ar/atomic_file.h"
+#include "ar/json.h"
 #include "bitcheck/dump.h"
 #include "numeric/text.h"
 #include "numeric/parallel.h"
@@ -77,21 +78,19 @@ std::string resultText(const BitResult& result) {
            formatText("{}; {} way{}\n", result.what, result.ways.size(), result.ways.size() == 1 ? "" : "s");
 }
 
-nlohmann::ordered_json wayJson(const BitWay& way) {
+Json wayJson(const BitWay& way) {
     return {{"isa", isaName(way.level)}, {"threads", way.threads}, {"tile", way.tileSize}};
 }
 
-nlohmann::ordered_json resultJson(const BitResult& result) {
-    nlohmann::ordered_json json = {{"name", result.name},
-                                   {"what", result.what},
-                                   {"verdict", verdictName(result.verdict)},
-                                   {"message", result.message},
-                                   {"ways", result.ways.size()},
-                                   {"differing", nlohmann::ordered_json::array()}};
-    for (const BitWay& way : result.differing) json["differing"].push_back(wayJson(way));
+Json resultJson(const BitResult& result) {
+    Json json = {
+        {"name", result.name},       {"what", result.what},        {"verdict", verdictName(result.verdict)},
+        {"message", result.message}, {"ways", result.ways.size()}, {"differing", Json::list()}};
+    for (const BitWay& way : result.differing) json["differing"].append(wayJson(way));
     if (!result.difference) return json;
     const BitDifference& d = *result.difference;
-    json["difference"] = {{"way", wayJson(d.way)}, {"plane", d.plane}, {"tile", {d.tileX, d.tileY}}};
+    json["difference"] = {
+        {"way", wayJson(d.way)}, {"plane", d.plane}, {"tile", Json::list({d.tileX, d.tileY})}};
     if (d.pixel)
         json["difference"]["pixel"] = {{"x", d.pixel->x},
                                        {"y", d.pixel->y},
@@ -169,10 +168,10 @@ ExitCode runCheckBits(const BitsOptions& options, const std::vector<BitCase>& ca
     progress.finish();
     const auto same = static_cast<size_t>(std::ranges::count(results, BitVerdict::same, &BitResult::verdict));
     std::string text;
-    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    Json list = Json::list();
     for (const BitResult& result : results) {
         text += resultText(result);
-        list.push_back(resultJson(result));
+        list.append(resultJson(result));
     }
     const uint64_t hash = hashOfAll(expected.reference.cases);
     const int rules = expected.reference.rulesVersion;
@@ -207,35 +206,32 @@ ExitCode runBits(const BitsOptions& options, const std::vector<BitCase>& allCase
 
 }  // namespace
 
-void addBits(CLI::App& app, ExitCode& exitCode, const std::vector<BitCase>& cases) {
+void addBits(Verb& command, const std::vector<BitCase>& cases) {
     const auto options = std::make_shared<BitsOptions>();
-    CLI::App* verb = app.add_subcommand(
+    Verb& verb = command.addVerb(
         "bits",
         "Compute every pass in every way of this machine (levels, threads, tiles) and compare each bit with "
         "the reference; names the first pass, tile and pixel that differ. Exit 1 if one does.");
-    CLI::Option* pattern =
-        verb->add_option("--case", options->pattern, "Names of cases: * ? [...]")->capture_default_str();
-    verb->add_option("--reference", options->reference, "Reference hashes")->capture_default_str();
-    CLI::Option* level = addIsaOption(*verb);
-    addThreadsOption(*verb, options->ways.threads);
-    addTileOption(*verb, options->ways.tileSize);
-    verb->add_flag("--all", options->ways.everyCombination,
-                   "Every combination of level, threads and tile size");
-    verb->add_flag("--json", options->json, "Report as JSON");
-    CLI::Option* dump =
-        verb->add_option("--dump", options->dump, "Write the words of this machine to a file");
-    CLI::Option* against = verb->add_option("--against", options->against,
-                                            "Compare with the words that another machine wrote with --dump");
-    CLI::Option* accept =
-        verb->add_flag("--accept", options->accept, "Make the bits of this machine the reference");
-    CLI::Option* reason =
-        verb->add_option("--reason", options->reason, "Why the bits change; kept in the reference");
-    accept->needs(reason)->excludes(pattern)->excludes(dump)->excludes(against);
-    reason->needs(accept);
-    dump->excludes(against);
-    verb->callback([options, level, &exitCode, &cases] {
-        if (level->count() > 0) options->ways.level = activeIsa();
-        exitCode = runBits(*options, cases);
+    const Option pattern = verb.add("--case", options->pattern, "Names of cases: * ? [...]");
+    verb.add("--reference", options->reference, "Reference hashes");
+    const Option level = addIsaOption(verb);
+    addThreadsOption(verb, options->ways.threads);
+    addTileOption(verb, options->ways.tileSize);
+    verb.addFlag("--all", options->ways.everyCombination,
+                 "Every combination of level, threads and tile size");
+    verb.addFlag("--json", options->json, "Report as JSON");
+    const Option dump = verb.add("--dump", options->dump, "Write the words of this machine to a file");
+    const Option against = verb.add("--against", options->against,
+                                    "Compare with the words that another machine wrote with --dump");
+    const Option accept =
+        verb.addFlag("--accept", options->accept, "Make the bits of this machine the reference");
+    const Option reason = verb.add("--reason", options->reason, "Why the bits change; kept in the reference");
+    accept.needs(reason).excludes(pattern).excludes(dump).excludes(against);
+    reason.needs(accept);
+    dump.excludes(against);
+    verb.onRun([options, level, &cases] {
+        if (level.isGiven()) options->ways.level = activeIsa();
+        return runBits(*options, cases);
     });
 }
 

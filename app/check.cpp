@@ -1,7 +1,9 @@
 #include <memory>
 
+#include "app/golden_support.h"
+#include "app/machine_options.h"
+#include "app/output.h"
 #include "app/report.h"
-#include "app/scene_options.h"
 #include "app/verbs.h"
 #include "numeric/text.h"
 
@@ -23,8 +25,8 @@ std::string resultText(const GoldenManifest& manifest, const GoldenResult& resul
     return text;
 }
 
-nlohmann::ordered_json resultJson(const GoldenResult& result) {
-    nlohmann::ordered_json json = {
+Json resultJson(const GoldenResult& result) {
+    Json json = {
         {"name", result.name}, {"verdict", verdictName(result.verdict)}, {"message", result.message}};
     if (result.comparison) json["comparison"] = comparisonJson(*result.comparison);
     return json;
@@ -41,12 +43,12 @@ ExitCode runCheck(const CheckOptions& options, const GoldenSupport& support) {
     size_t same = 0;
     bool failed = false;
     std::string text;
-    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    Json list = Json::list();
     for (const GoldenResult& result : results) {
         same += result.verdict == GoldenVerdict::same ? 1 : 0;
         failed = failed || result.verdict == GoldenVerdict::failed;
         text += resultText(manifest, result);
-        list.push_back(resultJson(result));
+        list.append(resultJson(result));
     }
     text += formatText("{} of {} golden images are the same\n", same, results.size());
     printOut(options.json ? jsonText({{"checked", results.size()}, {"same", same}, {"results", list}})
@@ -62,16 +64,16 @@ ExitCode runCheck(const CheckOptions& options, const GoldenSupport& support) {
 
 }  // namespace
 
-void addCheck(CLI::App& app, ExitCode& exitCode, const GoldenSupport& support) {
+void addCheck(Verb& command, const GoldenSupport& support) {
     const auto options = std::make_shared<CheckOptions>();
-    CLI::App* verb = app.add_subcommand(
+    Verb& verb = command.addVerb(
         "check",
         "Render the golden cases and compare them to the bit; writes nothing. Exit 1 if one differs.");
-    verb->add_option("PATTERN", options->pattern, "Names of cases: * ? [...]")->capture_default_str();
-    verb->add_option("--manifest", options->manifest, "Manifest of the golden images")->capture_default_str();
-    verb->add_flag("--json", options->json, "Report as JSON");
-    addIsaOption(*verb);
-    verb->callback([options, &exitCode, &support] { exitCode = runCheck(*options, support); });
+    verb.add("PATTERN", options->pattern, "Names of cases: * ? [...]");
+    verb.add("--manifest", options->manifest, "Manifest of the golden images");
+    verb.addFlag("--json", options->json, "Report as JSON");
+    addIsaOption(verb);
+    verb.onRun([options, &support] { return runCheck(*options, support); });
 }
 
 }  // namespace etalon

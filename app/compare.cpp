@@ -2,6 +2,8 @@
 
 #include <memory>
 
+#include "app/command_line.h"
+#include "app/output.h"
 #include "app/report.h"
 #include "app/verbs.h"
 #include "ar/image_io.h"
@@ -45,20 +47,18 @@ ExitCode runCompare(const CompareOptions& options) {
 
 }  // namespace
 
-void addCompare(CLI::App& app, ExitCode& exitCode) {
+void addCompare(Verb& command) {
     const auto options = std::make_shared<CompareOptions>();
-    CLI::App* verb = app.add_subcommand(
+    Verb& verb = command.addVerb(
         "compare",
         "Compare two images: shape, NaN and infinity positions, distances. Exit 1 if they differ.");
-    verb->add_option("A", options->a, "Image file")->required();
-    verb->add_option("B", options->b, "Image file")->required();
-    verb->add_flag("--json", options->json, "Report as JSON");
-    verb->add_flag("--bits", options->bits, "Signs of zeros and payloads of NaN count as differences");
-    verb->add_option("--error-image", options->errorImage, "Write |B - A| of every channel to this EXR file");
-    verb->add_option("--max-worst", options->maxWorst, "Worst samples to list per channel")
-        ->check(CLI::Range(0, 10000))
-        ->capture_default_str();
-    verb->callback([options, &exitCode] { exitCode = runCompare(*options); });
+    verb.add("A", options->a, "Image file").required();
+    verb.add("B", options->b, "Image file").required();
+    verb.addFlag("--json", options->json, "Report as JSON");
+    verb.addFlag("--bits", options->bits, "Signs of zeros and payloads of NaN count as differences");
+    verb.add("--error-image", options->errorImage, "Write |B - A| of every channel to this EXR file");
+    verb.add("--max-worst", options->maxWorst, "Worst samples to list per channel").range(0, 10000);
+    verb.onRun([options] { return runCompare(*options); });
 }
 
 }  // namespace etalon

@@ -1,6 +1,9 @@
+#include "app/command_line.h"
+#include "app/golden_support.h"
 #include "app/verbs.h"
 #include "ar/render_scene.h"
 #include "ar/scene_loader.h"
+#include "bitcheck/bit_case.h"
 #include "raster/rules.h"
 
 namespace {
@@ -16,17 +19,15 @@ etalon::Frame renderGolden(const etalon::GoldenManifest& manifest, const etalon:
 }  // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app;
-    etalon::ExitCode exitCode = etalon::ExitCode::done;
     const etalon::GoldenSupport golden{renderGolden, std::to_string(etalon::kRulesVersion)};
     const std::vector<etalon::BitCase> cases = etalon::bitCases();
-    etalon::configureCommand(app);
-    etalon::addRender(app, exitCode);
-    etalon::addPlan(app, exitCode);
-    etalon::addProbe(app, exitCode);
-    etalon::addCompare(app, exitCode);
-    etalon::addCheck(app, exitCode, golden);
-    etalon::addAccept(app, exitCode, golden);
-    etalon::addBits(app, exitCode, cases);
-    return static_cast<int>(etalon::runCommand(app, exitCode, argc, argv));
+    etalon::Command command;
+    etalon::addRender(command);
+    etalon::addPlan(command);
+    etalon::addProbe(command);
+    etalon::addCompare(command);
+    etalon::addCheck(command, golden);
+    etalon::addAccept(command, golden);
+    etalon::addBits(command, cases);
+    return static_cast<int>(command.run(argc, argv));
 }

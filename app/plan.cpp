@@ -2,9 +2,11 @@
 
 #include <memory>
 
-#include "app/report.h"
+#include "app/command_line.h"
+#include "app/output.h"
 #include "app/scene_options.h"
 #include "app/verbs.h"
+#include "ar/scene_loader.h"
 
 namespace etalon {
 namespace {
@@ -24,15 +26,14 @@ ExitCode runPlan(const PlanVerb& verb) {
 
 }  // namespace
 
-void addPlan(CLI::App& app, ExitCode& exitCode) {
-    auto verb = std::make_shared<PlanVerb>();
-    CLI::App* command =
-        app.add_subcommand("plan", "Say which passes a scene needs, and why the others do not run");
-    verb->scene.addTo(*command);
-    CLI::Option* json = command->add_flag("--json", verb->json, "As JSON");
-    command->add_flag("--dot", verb->dot, "As a Graphviz graph")->excludes(json);
-    command->add_flag("--png", verb->png, "As if a PNG were written too");
-    command->callback([verb, &exitCode] { exitCode = runPlan(*verb); });
+void addPlan(Verb& command) {
+    auto options = std::make_shared<PlanVerb>();
+    Verb& verb = command.addVerb("plan", "Say which passes a scene needs, and why the others do not run");
+    options->scene.addTo(verb);
+    const Option json = verb.addFlag("--json", options->json, "As JSON");
+    verb.addFlag("--dot", options->dot, "As a Graphviz graph").excludes(json);
+    verb.addFlag("--png", options->png, "As if a PNG were written too");
+    verb.onRun([options] { return runPlan(*options); });
 }
 
 }  // namespace etalon

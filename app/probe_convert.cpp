@@ -1,7 +1,8 @@
+#include <limits>
 #include <memory>
 
+#include "app/machine_options.h"
 #include "app/probe_options.h"
-#include "app/scene_options.h"
 #include "app/verbs.h"
 #include "ar/atomic_file.h"
 #include "ar/image_io.h"
@@ -12,7 +13,7 @@
 namespace etalon {
 namespace {
 
-const std::vector<std::string> kResamplings = {"nearest", "bilinear", "area"};
+constexpr std::string_view kResamplings[] = {"nearest", "bilinear", "area"};
 
 struct ProbeConvertVerb {
     ProbeInput input;
@@ -71,44 +72,32 @@ ExitCode runProbeConvert(const ProbeConvertVerb& verb) {
 
 }  // namespace
 
-void addProbeConvert(CLI::App& probe, ExitCode& exitCode) {
+void addProbeConvert(Verb& probe) {
     const auto options = std::make_shared<ProbeConvertVerb>();
-    CLI::App* verb =
-        probe.add_subcommand("convert", "Convert a probe to another mapping, size or orientation");
-    options->input.addTo(*verb);
-    verb->add_option("-o,--output", options->output, "EXR file to write")->required();
-    verb->add_option("--to", options->to, "Mapping of the result")
-        ->required()
-        ->check(CLI::IsMember(mappingNames()));
-    verb->add_option("--width", options->width,
-                     "Texels across an image (a cube's face); default: as in the source")
-        ->check(CLI::Range(1, kMaxImageSize));
-    verb->add_option("--height", options->height, "Texels down a lat-long image; default: half the width")
-        ->check(CLI::Range(1, kMaxImageSize));
-    verb->add_option("--to-layout", options->toLayout, "How the faces of a cube are laid out")
-        ->check(CLI::IsMember(kLayoutNames))
-        ->capture_default_str();
-    verb->add_option("--to-ball-distance", options->toBallDistance_radii, "Of a mirror ball, in radii")
-        ->check(CLI::Range(kLeastBallDistance_radii, std::numeric_limits<double>::infinity()))
-        ->capture_default_str();
-    verb->add_option("--resample", options->resampling, "How texels are computed; area keeps energy")
-        ->check(CLI::IsMember(kResamplings))
-        ->capture_default_str();
-    verb->add_option("--samples", options->samples, "Of area: samples per axis and texel")
-        ->check(CLI::Range(1, kMaxSamplesPerAxis))
-        ->capture_default_str();
-    verb->add_option("--rotate-y-deg", options->rotation_deg,
-                     "Turn the frame of the result about +Y, counter-clockwise from above")
-        ->check(CLI::Range(-1e6, 1e6))
-        ->capture_default_str();
-    verb->add_flag("--upright", options->upright,
-                   "The result is in world axes; default: in those of the source");
-    verb->add_option("--profile", options->profile, "Arithmetic profile")
-        ->check(CLI::IsMember(profileNames()))
-        ->capture_default_str();
-    addIsaOption(*verb);
-    addThreadsOption(*verb, options->threads);
-    verb->callback([options, &exitCode] { exitCode = runProbeConvert(*options); });
+    Verb& verb = probe.addVerb("convert", "Convert a probe to another mapping, size or orientation");
+    options->input.addTo(verb);
+    verb.add("-o,--output", options->output, "EXR file to write").required();
+    verb.add("--to", options->to, "Mapping of the result").required().oneOf(kMappingNames);
+    verb.add("--width", options->width, "Texels across an image (a cube's face); default: as in the source")
+        .range(1, kMaxImageSize);
+    verb.add("--height", options->height, "Texels down a lat-long image; default: half the width")
+        .range(1, kMaxImageSize);
+    verb.add("--to-layout", options->toLayout, "How the faces of a cube are laid out").oneOf(kLayoutNames);
+    verb.add("--to-ball-distance", options->toBallDistance_radii, "Of a mirror ball, in radii")
+        .range(kLeastBallDistance_radii, std::numeric_limits<double>::infinity());
+    verb.add("--resample", options->resampling, "How texels are computed; area keeps energy")
+        .oneOf(kResamplings);
+    verb.add("--samples", options->samples, "Of area: samples per axis and texel")
+        .range(1, kMaxSamplesPerAxis);
+    verb.add("--rotate-y-deg", options->rotation_deg,
+             "Turn the frame of the result about +Y, counter-clockwise from above")
+        .range(-1e6, 1e6);
+    verb.addFlag("--upright", options->upright,
+                 "The result is in world axes; default: in those of the source");
+    verb.add("--profile", options->profile, "Arithmetic profile").oneOf(profileNames());
+    addIsaOption(verb);
+    addThreadsOption(verb, options->threads);
+    verb.onRun([options] { return runProbeConvert(*options); });
 }
 
 }  // namespace etalon

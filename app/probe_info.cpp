@@ -1,10 +1,10 @@
-#include <cmath>
 #include <memory>
 
+#include "app/machine_options.h"
+#include "app/output.h"
 #include "app/probe_options.h"
-#include "app/report.h"
-#include "app/scene_options.h"
 #include "app/verbs.h"
+#include "ar/json.h"
 #include "probes/irradiance.h"
 #include "probes/probe_statistics.h"
 #include "numeric/text.h"
@@ -18,13 +18,9 @@ struct ProbeInfoVerb {
     bool json = false;
 };
 
-// JSON has no infinities and no NaN.
-nlohmann::ordered_json numberOf(double value) {
-    if (std::isnan(value)) return "nan";
-    if (std::isinf(value)) return value > 0 ? "inf" : "-inf";
-    return value;
+Json jsonOf(const glm::dvec3& v) {
+    return Json::list({Json::numberOf(v.x), Json::numberOf(v.y), Json::numberOf(v.z)});
 }
-nlohmann::ordered_json jsonOf(const glm::dvec3& v) { return {numberOf(v.x), numberOf(v.y), numberOf(v.z)}; }
 std::string textOf(const glm::dvec3& v) { return formatText("{:.6g} {:.6g} {:.6g}", v.x, v.y, v.z); }
 
 constexpr const char* kAxisNames[] = {"+x", "-x", "+y", "-y", "+z", "-z"};
@@ -37,17 +33,17 @@ ExitCode runProbeInfo(const ProbeInfoVerb& verb) {
     const auto irradiance = irradianceAt(probe, axes, Arithmetic::fp64, verb.threads);
     const std::string mapping = kMappingNames[static_cast<size_t>(probe.shape.mapping)];
     if (verb.json) {
-        nlohmann::ordered_json json = {{"file", verb.input.file},
-                                       {"mapping", mapping},
-                                       {"width", probe.shape.width},
-                                       {"height", probe.shape.height}};
+        Json json = {{"file", verb.input.file},
+                     {"mapping", mapping},
+                     {"width", probe.shape.width},
+                     {"height", probe.shape.height}};
         if (probe.shape.mapping == Mapping::mirrorBall)
-            json["ball_distance_radii"] = numberOf(probe.shape.ballDistance_radii);
+            json["ball_distance_radii"] = Json::numberOf(probe.shape.ballDistance_radii);
         json["has_distance"] = !probe.distance_m.empty();
         json["has_valid"] = !probe.valid.empty();
-        json["smallest"] = numberOf(s.smallest);
-        json["largest"] = numberOf(s.largest);
-        json["dynamic_range_stops"] = numberOf(s.dynamicRange_stops);
+        json["smallest"] = Json::numberOf(s.smallest);
+        json["largest"] = Json::numberOf(s.largest);
+        json["dynamic_range_stops"] = Json::numberOf(s.dynamicRange_stops);
         json["mean_radiance"] = jsonOf(s.mean);
         json["solid_angle_sr"] = s.solidAngle_sr;
         json["negative"] = s.negative;
@@ -74,14 +70,14 @@ ExitCode runProbeInfo(const ProbeInfoVerb& verb) {
 
 }  // namespace
 
-void addProbeInfo(CLI::App& probe, ExitCode& exitCode) {
+void addProbeInfo(Verb& probe) {
     const auto options = std::make_shared<ProbeInfoVerb>();
-    CLI::App* verb = probe.add_subcommand("info", "What a probe holds: mapping, range, mean, irradiance");
-    options->input.addTo(*verb);
-    addIsaOption(*verb);
-    addThreadsOption(*verb, options->threads);
-    verb->add_flag("--json", options->json, "Report as JSON");
-    verb->callback([options, &exitCode] { exitCode = runProbeInfo(*options); });
+    Verb& verb = probe.addVerb("info", "What a probe holds: mapping, range, mean, irradiance");
+    options->input.addTo(verb);
+    addIsaOption(verb);
+    addThreadsOption(verb, options->threads);
+    verb.addFlag("--json", options->json, "Report as JSON");
+    verb.onRun([options] { return runProbeInfo(*options); });
 }
 
 }  // namespace etalon

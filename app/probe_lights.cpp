@@ -2,10 +2,11 @@
 #include <bit>
 #include <memory>
 
+#include "app/machine_options.h"
+#include "app/output.h"
 #include "app/probe_options.h"
-#include "app/report.h"
-#include "app/scene_options.h"
 #include "app/verbs.h"
+#include "ar/json.h"
 #include "probes/dominant_lights.h"
 #include "probes/median_cut.h"
 #include "numeric/text.h"
@@ -22,18 +23,19 @@ struct ProbeLightsVerb {
     bool countIsGiven = false, upperHalf = false, json = false;
 };
 
-const std::vector<std::string> kMethods = {"median-cut", "dominant"}, kCuts = {"angle", "arc"},
-                               kPositions = {"centre", "centroid", "median", "centroid-twice"},
-                               kWeights = {"exact", "midpoint", "edge", "uniform"};
+constexpr std::string_view kMethods[] = {"median-cut", "dominant"};
+constexpr std::string_view kCuts[] = {"angle", "arc"};                                         // LongerSide
+constexpr std::string_view kPositions[] = {"centre", "centroid", "median", "centroid-twice"};  // LightPlace
+constexpr std::string_view kWeights[] = {"exact", "midpoint", "edge", "uniform"};              // TexelWeight
 
-nlohmann::ordered_json jsonOf(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
+Json jsonOf(const glm::dvec3& v) { return Json::list({v.x, v.y, v.z}); }
 
-nlohmann::ordered_json jsonOf(const ProbeLight& light) {
-    nlohmann::ordered_json json = {
+Json jsonOf(const ProbeLight& light) {
+    Json json = {
         {"direction", jsonOf(light.direction)},
         {"energy", jsonOf(light.energy)},
         {"solid_angle_sr", light.solidAngle_sr},
-        {"region", {light.region.x0, light.region.y0, light.region.x1, light.region.y1}}};
+        {"region", Json::list({light.region.x0, light.region.y0, light.region.x1, light.region.y1})}};
     if (light.position_m) json["position_m"] = jsonOf(*light.position_m);
     return json;
 }
@@ -68,7 +70,7 @@ ExitCode runProbeLights(const ProbeLightsVerb& verb) {
             formatText("{}: a cube map; dominant lights are searched in one image", verb.input.file));
 
     std::vector<ProbeLight> lights;
-    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    Json list = Json::list();
     std::string text = "# direction (towards the light), energy R G B (W/m^2), solid angle (sr), texels\n";
     if (isMedianCut) {
         const MedianCut cut = {.log2Count = verb.countIsGiven ? std::countr_zero(verb.count) : verb.log2Count,
@@ -79,7 +81,7 @@ ExitCode runProbeLights(const ProbeLightsVerb& verb) {
         warnUncounted(verb.input.file, found.uncountedValues);
         lights = std::move(found.lights);
         for (const ProbeLight& light : lights) {
-            list.push_back(jsonOf(light));
+            list.append(jsonOf(light));
             text += textOf(light) + "\n";
         }
     } else {
@@ -88,7 +90,7 @@ ExitCode runProbeLights(const ProbeLightsVerb& verb) {
                                                                 .upperHalf = verb.upperHalf,
                                                                 .maxLights = verb.maxLights})) {
             lights.push_back(found.light);
-            list.push_back(jsonOf(found.light));
+            list.append(jsonOf(found.light));
             list.back()["peak_brightness"] = found.peakBrightness;
             list.back()["angular_radius_rad"] = found.angularRadius_rad;
             text += formatText("{}  radius {:.4g} rad\n", textOf(found.light), found.angularRadius_rad);
@@ -111,48 +113,32 @@ ExitCode runProbeLights(const ProbeLightsVerb& verb) {
 
 }  // namespace
 
-void addProbeLights(CLI::App& probe, ExitCode& exitCode) {
+void addProbeLights(Verb& probe) {
     const auto options = std::make_shared<ProbeLightsVerb>();
-    CLI::App* verb =
-        probe.add_subcommand("lights", "Lights that stand for a probe, by median cut or by brightness.");
-    options->input.addTo(*verb);
-    verb->add_option("--method", options->method,
-                     "median-cut: lights of about equal energy that add up to the probe; dominant: what is "
-                     "brighter than a threshold in a coarse image")
-        ->check(CLI::IsMember(kMethods))
-        ->capture_default_str();
-    auto* log2 = verb->add_option("--log2", options->log2Count, "Median cut: 2^K lights")
-                     ->check(CLI::Range(0, kMaxLog2Lights))
-                     ->capture_default_str();
-    verb->add_option("--count", options->count, "Median cut: number of lights, a power of two")
-        ->check(CLI::Range(uint64_t{1}, uint64_t{1} << kMaxLog2Lights))
-        ->excludes(log2)
-        ->capture_default_str();
-    verb->add_option("--cut", options->cut, "Longer side by angles, or by the length of the parallel")
-        ->check(CLI::IsMember(kCuts))
-        ->capture_default_str();
-    verb->add_option("--position", options->position, "Where in its region a light lies")
-        ->check(CLI::IsMember(kPositions))
-        ->capture_default_str();
-    verb->add_option("--weights", options->weights, "Weights of the rows (probes/median_cut.h)")
-        ->check(CLI::IsMember(kWeights))
-        ->capture_default_str();
-    verb->add_option("--threshold", options->threshold, "Dominant: fraction of the brightest texel")
-        ->check(CLI::Range(1e-6, 1.0))
-        ->capture_default_str();
-    verb->add_option("--width", options->width, "Dominant: texels along the coarse image")
-        ->check(CLI::Range(1, kMaxImageSize))
-        ->capture_default_str();
-    verb->add_option("--max-lights", options->maxLights, "Dominant: the most lights")
-        ->check(CLI::Range(1, 1 << 20))
-        ->capture_default_str();
-    verb->add_flag("--upper-half", options->upperHalf, "Dominant: only lights above the horizon");
-    addIsaOption(*verb);
-    addThreadsOption(*verb, options->threads);
-    verb->add_flag("--json", options->json, "Report as JSON");
-    verb->callback([options, verb, &exitCode] {
-        options->countIsGiven = verb->count("--count") > 0;
-        exitCode = runProbeLights(*options);
+    Verb& verb = probe.addVerb("lights", "Lights that stand for a probe, by median cut or by brightness.");
+    options->input.addTo(verb);
+    verb.add("--method", options->method,
+             "median-cut: lights of about equal energy that add up to the probe; dominant: what is "
+             "brighter than a threshold in a coarse image")
+        .oneOf(kMethods);
+    const Option log2 =
+        verb.add("--log2", options->log2Count, "Median cut: 2^K lights").range(0, kMaxLog2Lights);
+    const Option count = verb.add("--count", options->count, "Median cut: number of lights, a power of two")
+                             .range(uint64_t{1}, uint64_t{1} << kMaxLog2Lights)
+                             .excludes(log2);
+    verb.add("--cut", options->cut, "Longer side by angles, or by the length of the parallel").oneOf(kCuts);
+    verb.add("--position", options->position, "Where in its region a light lies").oneOf(kPositions);
+    verb.add("--weights", options->weights, "Weights of the rows (probes/median_cut.h)").oneOf(kWeights);
+    verb.add("--threshold", options->threshold, "Dominant: fraction of the brightest texel").range(1e-6, 1.0);
+    verb.add("--width", options->width, "Dominant: texels along the coarse image").range(1, kMaxImageSize);
+    verb.add("--max-lights", options->maxLights, "Dominant: the most lights").range(1, 1 << 20);
+    verb.addFlag("--upper-half", options->upperHalf, "Dominant: only lights above the horizon");
+    addIsaOption(verb);
+    addThreadsOption(verb, options->threads);
+    verb.addFlag("--json", options->json, "Report as JSON");
+    verb.onRun([options, count] {
+        options->countIsGiven = count.isGiven();
+        return runProbeLights(*options);
     });
 }
 

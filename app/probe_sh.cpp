@@ -1,10 +1,11 @@
 #include <cmath>
 #include <memory>
 
+#include "app/machine_options.h"
+#include "app/output.h"
 #include "app/probe_options.h"
-#include "app/report.h"
-#include "app/scene_options.h"
 #include "app/verbs.h"
+#include "ar/json.h"
 #include "probes/harmonics_layout.h"
 #include "probes/harmonics_lobes.h"
 #include "numeric/text.h"
@@ -20,9 +21,9 @@ struct ProbeShVerb {
     bool json = false;
 };
 
-const std::vector<std::string> kFunctions = {"radiance", "irradiance"},
-                               kWindows = {"none", "hanning", "lanczos", "minimal"},
-                               kLayouts = {"interleaved", "planar"};
+constexpr std::string_view kFunctions[] = {"radiance", "irradiance"};
+constexpr std::string_view kWindows[] = {"none", "hanning", "lanczos", "minimal"};
+constexpr std::string_view kLayouts[] = {"interleaved", "planar"};  // CoefficientLayout
 
 struct Windowed {
     SphericalHarmonics harmonics;
@@ -66,14 +67,12 @@ ExitCode runProbeSh(const ProbeShVerb& verb) {
     const Windowed w = windowOf(verb, f);
     const double smallest = smallestValue(w.harmonics);
     if (verb.json) {
-        nlohmann::ordered_json json = {{"file", verb.input.file},
-                                       {"of", verb.of},
-                                       {"degree", verb.degree},
-                                       {"window", verb.window},
-                                       {"window_factors", w.factors}};
-        if (verb.window == "minimal")
-            json["window_strength"] =
-                std::isinf(w.strength) ? nlohmann::ordered_json("inf") : nlohmann::ordered_json(w.strength);
+        Json json = {{"file", verb.input.file},
+                     {"of", verb.of},
+                     {"degree", verb.degree},
+                     {"window", verb.window},
+                     {"window_factors", w.factors}};
+        if (verb.window == "minimal") json["window_strength"] = Json::numberOf(w.strength);
         json["smallest_value"] = smallest;
         json["layout"] = kLayouts[static_cast<size_t>(layoutOf(verb))];
         json["coefficients"] = layOut(w.harmonics, layoutOf(verb));
@@ -92,32 +91,27 @@ ExitCode runProbeSh(const ProbeShVerb& verb) {
 
 }  // namespace
 
-void addProbeSh(CLI::App& probe, ExitCode& exitCode) {
+void addProbeSh(Verb& probe) {
     const auto options = std::make_shared<ProbeShVerb>();
-    CLI::App* verb = probe.add_subcommand(
-        "sh", "Spherical harmonics of a probe: world axes, +Y up, with Condon-Shortley phase.");
-    options->input.addTo(*verb);
-    verb->add_option("--degree", options->degree, "Bands 0 .. degree")
-        ->check(CLI::Range(0, kMaxHarmonicDegree))
-        ->capture_default_str();
-    verb->add_option("--of", options->of, "The function: radiance, or irradiance over normals")
-        ->check(CLI::IsMember(kFunctions))
-        ->capture_default_str();
-    verb->add_option("--window", options->window,
-                     "Against ringing; minimal: only as much as removes what is negative")
-        ->check(CLI::IsMember(kWindows))
-        ->capture_default_str();
-    verb->add_option("--window-width", options->width,
-                     "hanning, lanczos: the band where the window is 0; default degree + 1")
-        ->check(CLI::Range(1e-3, 1e6));
-    verb->add_option("--coefficients", options->layout,
-                     "Only the numbers, one per line: interleaved (R G B of each coefficient, as ARCore) or "
-                     "planar (all of red first, as ARKit)")
-        ->check(CLI::IsMember(kLayouts));
-    addIsaOption(*verb);
-    addThreadsOption(*verb, options->threads);
-    verb->add_flag("--json", options->json, "Report as JSON");
-    verb->callback([options, &exitCode] { exitCode = runProbeSh(*options); });
+    Verb& verb =
+        probe.addVerb("sh", "Spherical harmonics of a probe: world axes, +Y up, with Condon-Shortley phase.");
+    options->input.addTo(verb);
+    verb.add("--degree", options->degree, "Bands 0 .. degree").range(0, kMaxHarmonicDegree);
+    verb.add("--of", options->of, "The function: radiance, or irradiance over normals").oneOf(kFunctions);
+    verb.add("--window", options->window,
+             "Against ringing; minimal: only as much as removes what is negative")
+        .oneOf(kWindows);
+    verb.add("--window-width", options->width,
+             "hanning, lanczos: the band where the window is 0; default degree + 1")
+        .range(1e-3, 1e6);
+    verb.add("--coefficients", options->layout,
+             "Only the numbers, one per line: interleaved (R G B of each coefficient, as ARCore) or "
+             "planar (all of red first, as ARKit)")
+        .oneOf(kLayouts);
+    addIsaOption(verb);
+    addThreadsOption(verb, options->threads);
+    verb.addFlag("--json", options->json, "Report as JSON");
+    verb.onRun([options] { return runProbeSh(*options); });
 }
 
 }  // namespace etalon

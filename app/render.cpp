@@ -3,11 +3,14 @@
 #include <filesystem>
 #include <memory>
 
-#include "app/report.h"
+#include "app/command_line.h"
+#include "app/output.h"
 #include "app/scene_options.h"
 #include "app/verbs.h"
 #include "ar/atomic_file.h"
 #include "ar/image_io.h"
+#include "ar/json.h"
+#include "ar/scene_loader.h"
 #include "lighting/tone_map.h"
 #include "numeric/text.h"
 
@@ -70,9 +73,9 @@ ExitCode runRender(const RenderVerb& verb) {
 
     for (const std::string& warning : result.warnings) printText(stderr, "etalon: warning: {}\n", warning);
     if (verb.json) {
-        nlohmann::ordered_json passes = nlohmann::ordered_json::array();
+        Json passes = Json::list();
         for (const PlanPass& pass : result.plan.passes)
-            if (pass.runs) passes.push_back(pass.name);
+            if (pass.runs) passes.append(pass.name);
         printOut(jsonText({{"files", verb.files},
                            {"width", result.frame.width},
                            {"height", result.frame.height},
@@ -96,18 +99,15 @@ ExitCode runRender(const RenderVerb& verb) {
 
 }  // namespace
 
-void addRender(CLI::App& app, ExitCode& exitCode) {
-    auto verb = std::make_shared<RenderVerb>();
-    CLI::App* command = app.add_subcommand("render", "Render a scene file to images");
-    verb->scene.addTo(*command);
-    command
-        ->add_option("-o,--output", verb->files,
-                     "Image to write: .exr (all outputs) or .png (tone mapped beauty)")
-        ->required()
-        ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    command->add_flag("--json", verb->json, "Report as JSON on standard output");
-    command->callback([verb, &exitCode] { exitCode = runRender(*verb); });
+void addRender(Verb& command) {
+    auto options = std::make_shared<RenderVerb>();
+    Verb& verb = command.addVerb("render", "Render a scene file to images");
+    options->scene.addTo(verb);
+    verb.add("-o,--output", options->files, "Image to write: .exr (all outputs) or .png (tone mapped beauty)")
+        .required()
+        .repeated();
+    verb.addFlag("--json", options->json, "Report as JSON on standard output");
+    verb.onRun([options] { return runRender(*options); });
 }
 
 }  // namespace etalon

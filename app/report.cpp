@@ -8,14 +8,6 @@
 namespace etalon {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-Json numberJson(double value) {
-    if (value != value) return "nan";
-    if (value - value != 0) return value > 0 ? "inf" : "-inf";
-    return value;
-}
-
 std::string ulpText(uint64_t ulp) {
     return ulp == kIncomparableUlp ? "incomparable" : formatText("{} ulp", ulp);
 }
@@ -57,16 +49,16 @@ void appendChannel(std::string& text, const ChannelComparison& channel) {
 }
 
 Json channelJson(const ChannelComparison& channel) {
-    Json histogram = Json::array(), worst = Json::array();
+    Json histogram = Json::list(), worst = Json::list();
     for (int bucket = 0; bucket < kUlpBuckets; ++bucket)
         if (const uint64_t number = channel.ulpHistogram[static_cast<size_t>(bucket)]; number > 0)
-            histogram.push_back({{"up_to_ulp", ulpBucketEnd(bucket)}, {"samples", number}});
+            histogram.append({{"up_to_ulp", ulpBucketEnd(bucket)}, {"samples", number}});
     for (const WorstPixel& pixel : channel.worst)
-        worst.push_back({{"x", pixel.x},
-                         {"y", pixel.y},
-                         {"a", numberJson(pixel.a)},
-                         {"b", numberJson(pixel.b)},
-                         {"ulp", pixel.ulp == kIncomparableUlp ? Json(nullptr) : Json(pixel.ulp)}});
+        worst.append({{"x", pixel.x},
+                      {"y", pixel.y},
+                      {"a", Json::numberOf(pixel.a)},
+                      {"b", Json::numberOf(pixel.b)},
+                      {"ulp", pixel.ulp == kIncomparableUlp ? Json(nullptr) : Json(pixel.ulp)}});
     return {{"name", channel.name},
             {"equal", channel.equal()},
             {"identical", channel.identical()},
@@ -112,20 +104,16 @@ std::string comparisonText(const Comparison& comparison, const std::string& a, c
 }
 
 Json comparisonJson(const Comparison& comparison) {
-    Json channels = Json::array();
-    for (const ChannelComparison& channel : comparison.channels) channels.push_back(channelJson(channel));
+    Json channels = Json::list();
+    for (const ChannelComparison& channel : comparison.channels) channels.append(channelJson(channel));
     return {{"equal", comparison.equal()},
             {"identical", comparison.identical()},
-            {"size_a", {comparison.widthA, comparison.heightA}},
-            {"size_b", {comparison.widthB, comparison.heightB}},
+            {"size_a", Json::list({comparison.widthA, comparison.heightA})},
+            {"size_b", Json::list({comparison.widthB, comparison.heightB})},
             {"only_in_a", comparison.onlyInA},
             {"only_in_b", comparison.onlyInB},
             {"other_type", comparison.otherType},
             {"channels", channels}};
-}
-
-std::string jsonText(const Json& json) {
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace etalon

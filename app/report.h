@@ -1,10 +1,10 @@
 // A comparison as text for people and as JSON for machines.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "ar/compare.h"
+#include "ar/json.h"
 
 namespace etalon {
 
@@ -13,9 +13,6 @@ std::string comparisonText(const Comparison& comparison, const std::string& a, c
 
 // An object; the keys are those of the structures in ar/compare.h in snake case. Infinities and NaN, which
 // JSON has not, are the texts "inf", "-inf" and "nan"; the ULP distance of incomparable samples is null.
-nlohmann::ordered_json comparisonJson(const Comparison& comparison);
-
-// A document of the command for --json: indented, ends with a line break; text that is no UTF-8 is replaced.
-std::string jsonText(const nlohmann::ordered_json& json);
+Json comparisonJson(const Comparison& comparison);
 
 }  // namespace etalon

@@ -1,8 +1,8 @@
 // The plan as text, JSON and a graph.
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
+#include "ar/json.h"
 #include "ar/plan.h"
 #include "ar/toml_reader.h"
 #include "numeric/text.h"
@@ -22,12 +22,11 @@ std::string planText(const Plan& plan) {
 }
 
 std::string planJson(const Plan& plan) {
-    nlohmann::ordered_json passes = nlohmann::ordered_json::array();
+    Json passes = Json::list();
     for (const PlanPass& pass : plan.passes)
-        passes.push_back(
+        passes.append(
             {{"name", pass.name}, {"runs", pass.runs}, {"reason", pass.reason}, {"needs", pass.needs}});
-    const nlohmann::ordered_json json = {{"passes", passes}, {"memory_bytes", plan.memory_bytes}};
-    return json.dump(2) + "\n";
+    return jsonText({{"passes", passes}, {"memory_bytes", plan.memory_bytes}});
 }
 
 std::string planDot(const Plan& plan) {

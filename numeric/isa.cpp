@@ -4,6 +4,7 @@
 #include <atomic>
 
 #include "numeric/check.h"
+#include "numeric/text.h"
 
 #if defined(__x86_64__)
 #include <cpuid.h>
@@ -54,32 +55,35 @@ bool runsHere(IsaLevel level) {
     return false;
 }
 
-std::vector<IsaLevel> findUsableLevels() {
-    // From narrow to wide.
-    std::vector<IsaLevel> levels = {
+// From narrow to wide.
+constexpr IsaLevel kBuiltLevels[] = {
 #if defined(ETALON_HAS_scalar)
-        IsaLevel::scalar,
+    IsaLevel::scalar,
 #endif
 #if defined(ETALON_HAS_neon)
-        IsaLevel::neon,
+    IsaLevel::neon,
 #endif
 #if defined(ETALON_HAS_v2)
-        IsaLevel::v2,
+    IsaLevel::v2,
 #endif
 #if defined(ETALON_HAS_v3)
-        IsaLevel::v3,
+    IsaLevel::v3,
 #endif
 #if defined(ETALON_HAS_v4)
-        IsaLevel::v4,
+    IsaLevel::v4,
 #endif
-    };
-    std::erase_if(levels, [](IsaLevel level) { return !runsHere(level); });
-    ETALON_CHECK(!levels.empty(), "this processor runs no level that is built");
-    return levels;
+};
+
+IsaLevel widestUsable() {
+    const std::vector<IsaLevel>& usable = usableIsaLevels();
+    if (!usable.empty()) return usable.back();
+    std::string text = "this processor has none of the instruction set levels that are built in:";
+    for (const IsaLevel level : kBuiltLevels) text += formatText(" {}", isaName(level));
+    throw InputError(text);
 }
 
 std::atomic<IsaLevel>& active() {
-    static std::atomic<IsaLevel> level = usableIsaLevels().back();
+    static std::atomic<IsaLevel> level = widestUsable();
     return level;
 }
 
@@ -111,7 +115,12 @@ std::optional<IsaLevel> findIsa(std::string_view name) {
 }
 
 const std::vector<IsaLevel>& usableIsaLevels() {
-    static const std::vector<IsaLevel> levels = findUsableLevels();
+    static const std::vector<IsaLevel> levels = [] {
+        std::vector<IsaLevel> usable;
+        for (const IsaLevel level : kBuiltLevels)
+            if (runsHere(level)) usable.push_back(level);
+        return usable;
+    }();
     return levels;
 }
 

@@ -20,11 +20,13 @@ enum class IsaLevel : uint8_t {
 const char* isaName(IsaLevel level);
 std::optional<IsaLevel> findIsa(std::string_view name);
 
-// The levels that are built in and that this processor and operating system can run; the widest last.
+// The levels that are built in and that this processor and operating system can run; the widest last. Empty
+// where there is none.
 const std::vector<IsaLevel>& usableIsaLevels();
 
-// The level that all passes of this process run at: the widest usable one, until selectIsa is called.
-// selectIsa throws PreconditionError for a level that is not usable; not to be called while passes run.
+// The level that all passes of this process run at: the widest usable one, until selectIsa is called;
+// InputError where no level is usable. selectIsa throws PreconditionError for a level that is not usable; not
+// to be called while passes run.
 IsaLevel activeIsa();
 void selectIsa(IsaLevel level);
 

@@ -2,7 +2,10 @@
 // verb bits with cases that a file changes.
 #include <fstream>
 
+#include "app/command_line.h"
+#include "app/golden_support.h"
 #include "app/verbs.h"
+#include "bitcheck/bit_case.h"
 
 namespace {
 
@@ -32,14 +35,12 @@ etalon::BitCase countingCase(const std::string& name) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app;
-    etalon::ExitCode exitCode = etalon::ExitCode::done;
     const etalon::GoldenSupport support{renderNumber, "1"};
     const std::vector<etalon::BitCase> cases = {countingCase("count/one"), countingCase("count/two")};
-    etalon::configureCommand(app);
-    etalon::addCompare(app, exitCode);
-    etalon::addCheck(app, exitCode, support);
-    etalon::addAccept(app, exitCode, support);
-    etalon::addBits(app, exitCode, cases);
-    return static_cast<int>(etalon::runCommand(app, exitCode, argc, argv));
+    etalon::Command command;
+    etalon::addCompare(command);
+    etalon::addCheck(command, support);
+    etalon::addAccept(command, support);
+    etalon::addBits(command, cases);
+    return static_cast<int>(command.run(argc, argv));
 }

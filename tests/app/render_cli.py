@@ -88,6 +88,7 @@ class Render(CliCase):
         for arguments in (["render"], ["render", "scene.toml"], ["render", "scene.toml", "-o"],
                           ["render", "scene.toml", "-o", "a.exr", "--profile", "f31"],
                           ["render", "scene.toml", "-o", "a.exr", "--tile", "20"],
+                          ["render", "scene.toml", "-o", "a.exr", "--tile", "0x0c"],
                           ["render", "scene.toml", "-o", "a.exr", "--tile", "many"],
                           ["render", "scene.toml", "-o", "a.exr", "--threads", "-1"],
                           ["render", "scene.toml", "-o", "a.exr", "--isa", "v9"],

@@ -1,0 +1,15 @@
+// How check and accept render their cases.
+#pragma once
+
+#include <string>
+
+#include "ar/golden.h"
+
+namespace etalon {
+
+struct GoldenSupport {
+    GoldenRenderer render;
+    std::string rulesVersion;
+};
+
+}  // namespace etalon

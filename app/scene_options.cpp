@@ -1,0 +1,27 @@
+#include "app/scene_options.h"
+
+#include "app/machine_options.h"
+#include "raster/profile.h"
+
+namespace etalon {
+
+void SceneOptions::addTo(Verb& verb) {
+    verb.add("scene", scene, "Scene file (TOML)").required();
+    verb.add("--profile", profile, "Arithmetic profile; default: the scene's").oneOf(profileNames());
+    verb.add("--outputs", outputs, "Outputs instead of the scene's").delimiter(',').oneOf(kOutputNames);
+    verb.addFlag("--strict", strict, "Questionable input (negative or NaN radiance) is an error");
+    addIsaOption(verb);
+    addThreadsOption(verb, raster.threads);
+    addTileOption(verb, raster.tileSize);
+}
+
+RenderOptions SceneOptions::renderOptions() const {
+    RenderOptions options;
+    options.request.outputs = outputs;
+    options.profile = profile;
+    options.raster = raster;
+    options.strict = strict;
+    return options;
+}
+
+}  // namespace etalon
