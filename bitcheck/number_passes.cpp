@@ -16,6 +16,7 @@ namespace etalon {
 namespace {
 
 using EmulatedLanes = Emulated<Native<double>>;
+using NarrowLanes = Narrow<Native<float>>;
 
 // A plane with a layer for each of f's results. f(first) returns the results of one group of lanes.
 template <class T, size_t Layers, class F>
@@ -65,6 +66,7 @@ BitPlane arithmeticPlane(std::string name, const ArgumentTable& table) {
 
 BitPlane emulatedPlane(Format format, std::string name, const ArgumentTable& table) {
     const EmulatedScope scope(format);
+    if (Arithmetic(format).type == NumberType::narrow) return arithmeticPlane<NarrowLanes>(std::move(name), table);
     return arithmeticPlane<EmulatedLanes>(std::move(name), table);
 }
 
@@ -91,6 +93,7 @@ BitPlane elementaryPlane(std::string name, const NumberTables& tables) {
 
 BitPlane emulatedElementaryPlane(Format format, std::string name, const NumberTables& tables) {
     const EmulatedScope scope(format);
+    if (Arithmetic(format).type == NumberType::narrow) return elementaryPlane<NarrowLanes>(std::move(name), tables);
     return elementaryPlane<EmulatedLanes>(std::move(name), tables);
 }
 
@@ -134,7 +137,7 @@ std::vector<BitPlane> sampling(const NumberTables& tables, const TextureView& im
     addSampling<Native<double>>(planes, "double", tables, image);
     {
         const EmulatedScope scope(kFp16);
-        addSampling<EmulatedLanes>(planes, "fp16", tables, image);
+        addSampling<NarrowLanes>(planes, "fp16", tables, image);
     }
     {
         const EmulatedScope scope(kFp24R300);
@@ -181,7 +184,7 @@ std::vector<BitPlane> cubeSampling(const NumberTables& tables, const TextureView
     addDirections<Native<double>>(planes, "double", tables, cube, latLong);
     {
         const EmulatedScope scope(kFp16);
-        addDirections<EmulatedLanes>(planes, "fp16", tables, cube, latLong);
+        addDirections<NarrowLanes>(planes, "fp16", tables, cube, latLong);
     }
     {
         const EmulatedScope scope(kFp24R300);

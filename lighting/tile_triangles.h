@@ -175,7 +175,7 @@ void TileTriangles<T>::gather(const Corners& corners, const Vectors& values, int
 // Each rounded once. count: a multiple of N.
 template <class T>
 void TileTriangles<T>::storeWords(const double* words, size_t count, Stored* to) {
-    if constexpr (std::is_same_v<Stored, float>)
+    if constexpr (std::is_same_v<T, Lanes<float, N>> || std::is_same_v<T, float>)
         for (size_t i = 0; i < count; i++) to[i] = static_cast<float>(words[i]);
     else
         for (size_t i = 0; i < count; i += N)
@@ -274,7 +274,11 @@ typename TileTriangles<T>::vec3 TileTriangles<T>::edgeValues(const Group& group,
             const Whole e_1 = value(kEdge1), e_2 = value(kEdge2);
             const auto scaled = [&](const Whole& e) {
                 const Signed inside(__builtin_bit_cast(typename Signed::Vector, e.v));
-                return T(convertLanes<Stored>(inside) * areaScale);
+                // The product is rounded once: a narrow number's is taken in double.
+                if constexpr (std::is_same_v<T, Narrow<Row>>)
+                    return T(convertLanes<double>(inside) * convertLanes<double>(areaScale));
+                else
+                    return T(convertLanes<Stored>(inside) * areaScale);
             };
             return {scaled(words[kArea] - (e_1 + e_2)), scaled(e_1), scaled(e_2)};
         }

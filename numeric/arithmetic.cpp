@@ -31,6 +31,7 @@ std::string arithmeticName(const Arithmetic& arithmetic) {
             return "fp64";
         case NumberType::truth:
             return "truth";
+        case NumberType::narrow:
         case NumberType::emulated:
             break;
     }

@@ -12,18 +12,21 @@ namespace etalon {
 enum class NumberType : uint8_t {
     fp32,      // float, in lanes
     fp64,      // double, in lanes
-    emulated,  // any format (numeric/emulated.h), in lanes
+    narrow,    // fp16 or bf16, over lanes of float (numeric/narrow.h)
+    emulated,  // any format (numeric/emulated.h), over lanes of double
     truth,     // 192 bits (numeric/truth.h), one at a time
 };
 
 // A value: a format that a user makes up is one too.
 struct Arithmetic {
     NumberType type = NumberType::fp32;
-    Format format = kFp32;  // of the emulated type
+    Format format = kFp32;  // of the narrow and the emulated type
 
     constexpr Arithmetic() = default;
     constexpr explicit Arithmetic(NumberType numberType) : type(numberType) {}
-    constexpr explicit Arithmetic(Format emulated) : type(NumberType::emulated), format(emulated) {}
+    constexpr explicit Arithmetic(Format emulated)
+        : type(emulated == kFp16 || emulated == kBf16 ? NumberType::narrow : NumberType::emulated),
+          format(emulated) {}
     friend constexpr bool operator==(const Arithmetic&, const Arithmetic&) = default;
 
     static const Arithmetic truth, fp64, fp32;

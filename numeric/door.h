@@ -21,7 +21,7 @@
 #if defined(ETALON_TRUTH)
 #include "numeric/truth_elementary.h"
 #elif defined(ETALON_LEVEL)
-#include "numeric/emulated.h"
+#include "numeric/narrow.h"
 #else
 #include "numeric/emulated_format.h"
 #endif
@@ -59,6 +59,8 @@ const Table& passesOf(NumberType type) {
     switch (type) {
         case NumberType::fp64:
             return kPassesOver<Table, Native<double> >;
+        case NumberType::narrow:
+            return kPassesOver<Table, Narrow<Native<float>>>;
         case NumberType::emulated:
             return kPassesOver<Table, Emulated<Native<double> > >;
         default:

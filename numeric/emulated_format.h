@@ -31,6 +31,7 @@ struct EmulatedFormat {
     double lowestExponent = 0;    // of the smallest number above zero
     int64_t keptBits = 0;         // of a double's pattern, if the format truncates
     Path path = Path::nearestEven;
+    bool isBinary16 = false;  // fp16, of the two formats of numeric/narrow.h
     Rounding rounding = Rounding::nearestEven;
 
     constexpr EmulatedFormat() = default;
@@ -47,6 +48,7 @@ struct EmulatedFormat {
           lowestExponent(f.minExponent - (f.subnormals == Subnormals::keep ? f.significandBits - 1 : 0)),
           keptBits(-(int64_t{1} << (kDoubleBits - f.significandBits))),
           path(pathOf(f)),
+          isBinary16(f == kFp16),
           rounding(f.rounding) {}
 
   private:

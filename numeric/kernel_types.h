@@ -1,5 +1,5 @@
-// What a kernel text may use, for every number type it is compiled for: float, double, Lanes<S, N>,
-// Rounded<Format, D> and Truth. The class that includes a kernel text includes "numeric/kernel_scope.inc"
+// What a kernel text may use, for every number type it is compiled for: float, double, Lanes<S, N>, Narrow<D>,
+// Emulated<D>, Rounded<Format, D> and Truth. The class that includes a kernel text includes "numeric/kernel_scope.inc"
 // first. The subset and a worked example stand in docs/kernels.md.
 #pragma once
 

@@ -86,6 +86,31 @@ ETALON_REGISTER_FUNCTIONS(float, 4, float32x4_t, vsqrtq_f32, vrndmq_f32)
 ETALON_REGISTER_FUNCTIONS(double, 2, float64x2_t, vsqrtq_f64, vrndmq_f64)
 #endif
 
+// Each lane of float rounded to binary16, to nearest even with subnormals kept, and back; NaN stays NaN. Overloads
+// for the vectors that the processor has the conversions for.
+void throughBinary16();
+#define ETALON_THROUGH_BINARY16(N, Register, narrow, wide)                                            \
+    typedef float Floats##N __attribute__((vector_size(N * sizeof(float))));                          \
+    inline Floats##N throughBinary16(Floats##N v) {                                                   \
+        return reinterpret_cast<Floats##N>(wide(narrow(reinterpret_cast<Register>(v))));              \
+    }
+#if defined(__AVX512F__)
+inline __m256i toBinary16(__m512 v) {
+    return _mm512_cvtps_ph(v, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC);
+}
+ETALON_THROUGH_BINARY16(16, __m512, toBinary16, _mm512_cvtph_ps)
+#endif
+#if defined(__F16C__)
+inline __m128i toBinary16(__m256 v) {
+    return _mm256_cvtps_ph(v, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC);
+}
+ETALON_THROUGH_BINARY16(8, __m256, toBinary16, _mm256_cvtph_ps)
+#endif
+#if defined(__aarch64__)
+ETALON_THROUGH_BINARY16(4, float32x4_t, vcvt_f16_f32, vcvt_f32_f16)
+#endif
+
+#undef ETALON_THROUGH_BINARY16
 #undef ETALON_REGISTER_FUNCTIONS
 #undef ETALON_REGISTER_CONVERSION
 

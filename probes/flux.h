@@ -18,7 +18,6 @@
 #include <type_traits>
 #include <vector>
 
-#include "numeric/emulated.h"
 #include "numeric/format.h"
 #include "numeric/kernel_types.h"
 #include "numeric/number_lanes.h"
@@ -54,6 +53,8 @@ struct TermLimits<Emulated<D>> {
     static constexpr double smallest = 0;
     static double largest() { return emulatedFormat.largest; }
 };
+template <class D>
+struct TermLimits<Narrow<D>> : TermLimits<Emulated<double>> {};
 
 // How numbers of the arithmetic T are kept between steps of a sum, exactly: one scalar per lane.
 template <class T>
@@ -100,6 +101,8 @@ T loadRounded(const Stored* from) {
     else if constexpr (std::is_same_v<T, Lanes<float, kWidth>>)
         return joinLanes(convertLanes<float>(Lanes<double, kWidth / 2>::load(from)),
                          convertLanes<float>(Lanes<double, kWidth / 2>::load(from + kWidth / 2)));
+    else if constexpr (std::is_same_v<T, Narrow<Lanes<Stored, kWidth>>>)
+        return T(Lanes<Stored, kWidth>::load(from));
     else
         return T(convertLanes<double>(Lanes<Stored, kWidth>::load(from)));
 }

@@ -23,6 +23,7 @@ constexpr ProbeErrors probeErrors(const Arithmetic& arithmetic) {
             return {1e-14, 1e-14, 1e-15};
         case NumberType::fp32:
             return kOfFp32;
+        case NumberType::narrow:
         case NumberType::emulated:
             break;
     }

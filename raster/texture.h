@@ -8,6 +8,7 @@
 #include <span>
 
 #include "numeric/kernel_types.h"
+#include "numeric/narrow.h"
 #include "numeric/number_lanes.h"
 #include "raster/image.h"
 
@@ -94,8 +95,8 @@ class TextureView {
     bool isDouble_ = false;
 };
 
-// The scalar type that texels and results of arithmetic in T are stored as: float for float and its lanes,
-// else double (exact for every rounded format; truth is rounded to double).
+// The scalar type that texels and results of arithmetic in T are stored as: float for float, fp16 and bf16 and
+// their lanes, else double (exact for every format; truth is rounded to double).
 template <class T>
 struct TexelStorageOf {
     using Type = double;
@@ -106,6 +107,10 @@ struct TexelStorageOf<float> {
 };
 template <int N>
 struct TexelStorageOf<Lanes<float, N>> {
+    using Type = float;
+};
+template <class D>
+struct TexelStorageOf<Narrow<D>> {
     using Type = float;
 };
 template <class T>
@@ -123,7 +128,12 @@ struct TexelFetch {
             return T(t.stored(layer, channel, x, y));
         else if constexpr (std::is_same_v<T, Lanes<float, kCount>>)
             return T::generate([&](int i) { return t.storedAs<float>(layer[i], channel, x[i], y[i]); });
-        else
+        else if constexpr (std::is_same_v<T, Narrow<Lanes<float, kCount>>>) {
+            if (t.floats(0))
+                return T(Lanes<float, kCount>::generate(
+                    [&](int i) { return t.storedAs<float>(layer[i], channel, x[i], y[i]); }));
+            return generateNumber<T>([&](int i) { return t.stored(layer[i], channel, x[i], y[i]); });
+        } else
             return generateNumber<T>([&](int i) { return t.stored(layer[i], channel, x[i], y[i]); });
     }
     // The first three channels of two texels, if the second one is stored behind the first one in every lane

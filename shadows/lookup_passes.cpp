@@ -293,7 +293,7 @@ void ShadowLookupOf<T>::fillPlane(size_t layer, int threads) {
         }
         const uint32_t* stored = &from.stored.at(0, y);
         if (unormRow(stored, line)) return;
-        if constexpr (std::is_same_v<Stored, float>)
+        if constexpr (std::is_same_v<T, Lanes<float, N>> || std::is_same_v<T, float>)
             if (format == DepthFormat::d32f) {
                 std::memcpy(line, stored, static_cast<size_t>(width) * sizeof(float));
                 return;
