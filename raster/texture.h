@@ -167,7 +167,13 @@ struct TexelFetch {
                            std::is_same_v<Stored, double>)
             return joinLanes(convertLanes<float>(Half::load(from)),
                              convertLanes<float>(Half::load(from + kCount / 2)));
-        else if constexpr (std::is_constructible_v<T, Lanes<Stored, kCount>>)
+        else if constexpr (kCount > 1 && std::is_same_v<T, Narrow<Lanes<float, kCount>>> &&
+                           std::is_same_v<Stored, double>) {
+            using Round = EmulatedOperations<Half>;
+            return T::ofRepresentable(
+                joinLanes(convertLanes<float>(Round::rounded(Half::load(from))),
+                          convertLanes<float>(Round::rounded(Half::load(from + kCount / 2)))));
+        } else if constexpr (std::is_constructible_v<T, Lanes<Stored, kCount>>)
             return T(Lanes<Stored, kCount>::load(from));
         else
             return generateNumber<T>([&](int i) { return static_cast<double>(from[i]); });
@@ -185,7 +191,9 @@ struct TexelFetch {
             storeActive(convertLanes<double>(lowerLanes(value)), to, std::min(active, kHalf));
             if (active > kHalf)
                 storeActive(convertLanes<double>(upperLanes(value)), to + kHalf, active - kHalf);
-        } else
+        } else if constexpr (kCount > 1 && std::is_same_v<T, Narrow<Lanes<float, kCount>>>)
+            TexelFetch<Lanes<float, kCount>>::store(value.v, to, active);
+        else
             for (int i = 0; i < active; i++) to[i] = static_cast<Stored>(numberLane(value, i));
     }
 
