@@ -1,6 +1,7 @@
 // The kernel texts over the number types of a level, on tables of arguments.
 #include <array>
 #include <bit>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -66,7 +67,8 @@ BitPlane arithmeticPlane(std::string name, const ArgumentTable& table) {
 
 BitPlane emulatedPlane(Format format, std::string name, const ArgumentTable& table) {
     const EmulatedScope scope(format);
-    if (Arithmetic(format).type == NumberType::narrow) return arithmeticPlane<NarrowLanes>(std::move(name), table);
+    if (Arithmetic(format).type == NumberType::narrow)
+        return arithmeticPlane<NarrowLanes>(std::move(name), table);
     return arithmeticPlane<EmulatedLanes>(std::move(name), table);
 }
 
@@ -93,7 +95,8 @@ BitPlane elementaryPlane(std::string name, const NumberTables& tables) {
 
 BitPlane emulatedElementaryPlane(Format format, std::string name, const NumberTables& tables) {
     const EmulatedScope scope(format);
-    if (Arithmetic(format).type == NumberType::narrow) return elementaryPlane<NarrowLanes>(std::move(name), tables);
+    if (Arithmetic(format).type == NumberType::narrow)
+        return elementaryPlane<NarrowLanes>(std::move(name), tables);
     return elementaryPlane<EmulatedLanes>(std::move(name), tables);
 }
 
@@ -193,10 +196,62 @@ std::vector<BitPlane> cubeSampling(const NumberTables& tables, const TextureView
     return planes;
 }
 
+// The number of a 16-bit pattern of F: a sign, 16 - p exponent bits, p - 1 fraction bits.
+template <Format F>
+double numberOfPattern(uint32_t pattern) {
+    constexpr int kFractionBits = F.significandBits - 1;
+    constexpr uint32_t kFractionMask = (1u << kFractionBits) - 1, kExponentMask = 0x7fffu >> kFractionBits;
+    const uint32_t code = pattern >> kFractionBits & kExponentMask, fraction = pattern & kFractionMask;
+    double magnitude = fraction * powerOfTwo(F.minExponent - kFractionBits);
+    if (code == kExponentMask)
+        magnitude = fraction == 0 ? std::numeric_limits<double>::infinity() : kCanonicalNan;
+    else if (code != 0)
+        magnitude = (1.0 + fraction * powerOfTwo(-kFractionBits)) *
+                    powerOfTwo(F.minExponent + static_cast<int>(code) - 1);
+    return pattern >> 15 != 0 && magnitude == magnitude ? -magnitude : magnitude;
+}
+
+template <Format F>
+size_t mismatchesOf(uint32_t first, uint32_t last, uint32_t step) {
+    constexpr uint32_t kPatterns = 1u << 16;
+    constexpr int kWidth = NumberTraits<NarrowLanes>::lanes;
+    using R = Rounded<F, Lanes<double, kWidth>>;
+    const EmulatedScope scope(F);
+    size_t mismatches = 0;
+    const auto compare = [&](const NarrowLanes& narrow, const R& rounded) {
+        for (int i = 0; i < kWidth; i++)
+            mismatches +=
+                std::bit_cast<uint64_t>(numberLane(narrow, i)) != std::bit_cast<uint64_t>(rounded.v[i]);
+    };
+    for (uint32_t pattern = first; pattern < last; pattern += kWidth) {
+        const auto values = [&](int i) { return numberOfPattern<F>(pattern + static_cast<uint32_t>(i)); };
+        const auto a = generateNumber<NarrowLanes>(values);
+        const auto exactA = generateNumber<R>(values);
+        compare(a, exactA);
+        compare(squareRoot(a), squareRoot(exactA));
+        compare(floorOf(a), floorOf(exactA));
+        for (uint32_t other = 0; other < kPatterns; other += step) {
+            const double value = numberOfPattern<F>(other);
+            const NarrowLanes b(value);
+            const R exactB(value);
+            compare(a + b, exactA + exactB);
+            compare(a - b, exactA - exactB);
+            compare(a * b, exactA * exactB);
+            compare(a / b, exactA / exactB);
+        }
+    }
+    return mismatches;
+}
+
+std::array<size_t, 2> narrowMismatches(uint32_t first, uint32_t last, uint32_t step) {
+    return {mismatchesOf<kFp16>(first, last, step), mismatchesOf<kBf16>(first, last, step)};
+}
+
 }  // namespace
 
 template <>
-constexpr NumberPasses kPassesOver<NumberPasses, void> = {arithmetic, elementary, sampling, cubeSampling};
+constexpr NumberPasses kPassesOver<NumberPasses, void> = {arithmetic, elementary, sampling, cubeSampling,
+                                                          narrowMismatches};
 template const NumberPasses& ETALON_LEVEL::passesOf<NumberPasses>();
 
 }  // namespace etalon

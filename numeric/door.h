@@ -60,7 +60,7 @@ const Table& passesOf(NumberType type) {
         case NumberType::fp64:
             return kPassesOver<Table, Native<double> >;
         case NumberType::narrow:
-            return kPassesOver<Table, Narrow<Native<float>>>;
+            return kPassesOver<Table, Narrow<Native<float> > >;
         case NumberType::emulated:
             return kPassesOver<Table, Emulated<Native<double> > >;
         default:

@@ -89,10 +89,10 @@ ETALON_REGISTER_FUNCTIONS(double, 2, float64x2_t, vsqrtq_f64, vrndmq_f64)
 // Each lane of float rounded to binary16, to nearest even with subnormals kept, and back; NaN stays NaN. Overloads
 // for the vectors that the processor has the conversions for.
 void throughBinary16();
-#define ETALON_THROUGH_BINARY16(N, Register, narrow, wide)                                            \
-    typedef float Floats##N __attribute__((vector_size(N * sizeof(float))));                          \
-    inline Floats##N throughBinary16(Floats##N v) {                                                   \
-        return reinterpret_cast<Floats##N>(wide(narrow(reinterpret_cast<Register>(v))));              \
+#define ETALON_THROUGH_BINARY16(N, Register, narrow, wide)                               \
+    typedef float Floats##N __attribute__((vector_size(N * sizeof(float))));             \
+    inline Floats##N throughBinary16(Floats##N v) {                                      \
+        return reinterpret_cast<Floats##N>(wide(narrow(reinterpret_cast<Register>(v)))); \
     }
 #if defined(__AVX512F__)
 inline __m256i toBinary16(__m512 v) {

@@ -57,9 +57,10 @@ struct Narrow {
             v = D(static_cast<float>(EmulatedOperations<double>::rounded(value)));
     }
     // Each lane rounded once to the format.
-    explicit Narrow(D value) : v(rounded(value)) {}
+    explicit Narrow(D value) requires(!std::same_as<D, float>) : v(rounded(value)) {}
     template <int N>
-    requires std::same_as<D, Lanes<float, N>> explicit Narrow(Lanes<double, N> value)
+    requires std::same_as<D, Lanes<float, N>>
+    explicit Narrow(Lanes<double, N> value)
         : v(convertInParts(perRegister(
               [](auto part) { return EmulatedOperations<decltype(part)>::rounded(part); }, value))) {}
 
@@ -70,10 +71,17 @@ struct Narrow {
         return r;
     }
 
-    friend Narrow operator+(Narrow a, Narrow b) { return Narrow(a.v + b.v); }
-    friend Narrow operator-(Narrow a, Narrow b) { return Narrow(a.v - b.v); }
-    friend Narrow operator*(Narrow a, Narrow b) { return Narrow(a.v * b.v); }
-    friend Narrow operator/(Narrow a, Narrow b) { return Narrow(a.v / b.v); }
+    // Each lane rounded once to the format.
+    [[gnu::always_inline]] static D rounded(D x) {
+        const D r = emulatedFormat.isBinary16 ? toBinary16(x) : toBfloat16(x);
+        // The one NaN of all formats (kCanonicalNan).
+        return select(x == x, r, D(std::bit_cast<float>(uint32_t{0x7fc00000})));
+    }
+
+    friend Narrow operator+(Narrow a, Narrow b) { return ofRepresentable(rounded(a.v + b.v)); }
+    friend Narrow operator-(Narrow a, Narrow b) { return ofRepresentable(rounded(a.v - b.v)); }
+    friend Narrow operator*(Narrow a, Narrow b) { return ofRepresentable(rounded(a.v * b.v)); }
+    friend Narrow operator/(Narrow a, Narrow b) { return ofRepresentable(rounded(a.v / b.v)); }
     friend Narrow operator-(Narrow a) { return ofRepresentable(-a.v); }
 
     friend auto operator<(Narrow a, Narrow b) { return a.v < b.v; }
@@ -87,11 +95,6 @@ struct Narrow {
     using B = FloatBits<D>;
     static constexpr int kLaneCount = sizeof(D) / sizeof(float);
 
-    [[gnu::always_inline]] static D rounded(D x) {
-        const D r = emulatedFormat.isBinary16 ? toBinary16(x) : toBfloat16(x);
-        // The one NaN of all formats (kCanonicalNan).
-        return select(x == x, r, D(std::bit_cast<float>(uint32_t{0x7fc00000})));
-    }
     // NaN stays NaN.
     [[gnu::always_inline]] static D toBinary16(D x) {
         if constexpr (requires { registers::throughBinary16(x.v); }) {
@@ -135,7 +138,7 @@ Narrow<Lanes<float, N>> select(Mask<float, N> c, Narrow<Lanes<float, N>> a, Narr
 // The square root rounded once. -0 gives -0; a negative number gives NaN.
 template <class D>
 Narrow<D> squareRoot(Narrow<D> a) {
-    return Narrow<D>(squareRoot(a.v));
+    return Narrow<D>::ofRepresentable(Narrow<D>::rounded(squareRoot(a.v)));
 }
 // Largest whole number that is not greater; always a number of the format. -0 stays -0, infinities and NaN stay.
 template <class D>
@@ -181,10 +184,12 @@ template <class D>
 struct ElementaryFunctions<Narrow<D>> {
     using R = Narrow<D>;
     static R atan2Of(R y, R x) {
-        return inDouble(y, x, [](auto a, auto b) { return atan2InDouble(a, b, emulatedFormat.lowestExponent, false); });
+        return inDouble(
+            y, x, [](auto a, auto b) { return atan2InDouble(a, b, emulatedFormat.lowestExponent, false); });
     }
     static R powOf(R x, R y) {
-        return inDouble(x, y, [](auto a, auto b) { return powInDouble(a, b, emulatedFormat.lowestExponent, false); });
+        return inDouble(
+            x, y, [](auto a, auto b) { return powInDouble(a, b, emulatedFormat.lowestExponent, false); });
     }
     static R sinOf(R x) {
         return inDouble(x, x, [](auto a, auto) { return sinInDouble(a, emulatedFormat.lowestExponent); });
@@ -201,7 +206,8 @@ struct ElementaryFunctions<Narrow<D>> {
             return EmulatedOperations<std::remove_cv_t<decltype(r)>>::rounded(r);
         };
         if constexpr (std::same_as<D, float>)
-            return R::ofRepresentable(static_cast<float>(once(static_cast<double>(a.v), static_cast<double>(b.v))));
+            return R::ofRepresentable(
+                static_cast<float>(once(static_cast<double>(a.v), static_cast<double>(b.v))));
         else
             return R::ofRepresentable(byRegisters(a.v, b.v, once));
     }
