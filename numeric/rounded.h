@@ -14,10 +14,9 @@
 //   square root is the same with a - m^2 and 2p + 2 bits. For sums 53 >= 2p + 2 suffices (Figueroa, "When is
 //   double rounding innocuous?", 1995).
 // - Toward zero: rounding to double first can only harm if it moves a value up onto a number m of F.
-// Quotients
-//   and square roots stay away from m by the same argument. Sums do not: 1 - 2^-100 becomes 1. So sums are
-//   first truncated in double: TwoSum gives the exact error of the sum, and where the sum was rounded away
-//   from zero it is moved back by one step. Truncation followed by truncation is truncation.
+//   Quotients and square roots stay away from m by the same argument. Sums do not: 1 - 2^-100 becomes 1. So
+//   sums are first truncated in double: TwoSum gives the exact error of the sum, and where the sum was
+//   rounded away from zero it is moved back by one step. Truncation followed by truncation is truncation.
 #pragma once
 
 #include <bit>

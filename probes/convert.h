@@ -6,18 +6,16 @@
 // (probes/kernels/{mapping,probe_sampler}.glsl) in the chosen arithmetic. One sample gives the texel
 //   nearest: the texel that holds the point.
 //   bilinear: the four texels around the point, as raster/sampler.h. No mapping has a seam: columns of a
-//   lat-long
-//     image repeat and beyond its poles lies the pole's row half a turn further, cube maps are sampled as
-//     raster/cube_face.h says, the borders of an octahedral image fold onto themselves. On the rim of a disc
-//     (and where the source is not valid) texels without a direction are left out: of two neighbours the one
-//     that has radiance counts alone, first along x, then along y.
+//     lat-long image repeat and beyond its poles lies the pole's row half a turn further, cube maps are
+//     sampled as raster/cube_face.h says, the borders of an octahedral image fold onto themselves. On the
+//     rim of a disc (and where the source is not valid) texels without a direction are left out: of two
+//     neighbours the one that has radiance counts alone, first along x, then along y.
 //   area: samplesPerAxis^2 bilinear samples at the centres of the equal parts of the texel, each weighted
-//   with the
-//     solid angle of its part: exact for lat-long, cube, octahedral images and the orthographic mirror ball;
-//     of angular maps and near balls it is the density at the part's centre, which differs by a share that
-//     falls with the square of the part's size, as does the error of the sample itself. Parts whose centre
-//     is beyond the rim weigh nothing. In order, row by row: weight = weight + w, mean = mean + (sample -
-//     mean) w / weight. Samples without radiance are left out.
+//     with the solid angle of its part: exact for lat-long, cube, octahedral images and the orthographic
+//     mirror ball; of angular maps and near balls it is the density at the part's centre, which differs by a
+//     share that falls with the square of the part's size, as does the error of the sample itself. Parts
+//     whose centre is beyond the rim weigh nothing. In order, row by row: weight = weight + w, mean = mean +
+//     (sample - mean) w / weight. Samples without radiance are left out.
 // So a constant probe keeps exactly its constant in every arithmetic, results stay in the hull of the texels
 // but for the rounding of the mean, and a non-finite texel makes those results NaN or infinite that it has a
 // weight in.

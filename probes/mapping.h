@@ -4,23 +4,19 @@
 // size.
 //   latLong: u = 1/2 - atan2(x, z) / (2 pi), v = 1/2 - atan2(y, sqrt(x^2 + z^2)) / pi (probes/latlong.h)
 //   latLongPedersen: [Pedersen2008, Listing 6.1] x = sin(pi v) cos(2 pi u), y = cos(pi v), z = -sin(pi v)
-//   sin(2 pi
-//     u): +X at the left border, -Z a quarter from it. Seen from inside it is a mirror image of latLong. The
-//     listing's texture coordinate grows upwards (v there is 1 - v here), as OpenGL's rows do.
+//     sin(2 pi u): +X at the left border, -Z a quarter from it. Seen from inside it is a mirror image of
+//     latLong. The listing's texture coordinate grows upwards (v there is 1 - v here), as OpenGL's rows do.
 //   cube: the face table (raster/cube_face.h)
 // The others fill a square, X = 2 u - 1 to the right, Y = 1 - 2 v upwards, +Z in the middle, +X on its right,
 // +Y above. That is what a mirror ball shows to an eye on its +Z side; seen from inside it is a mirror image.
 //   angular: the disc X^2 + Y^2 <= 1, whose radius is the polar angle from +Z divided by pi. This is the
-//   formula of
-//     [Debevec98], (x, y) r with r = acos(z) / (pi sqrt(x^2 + y^2)); its words put the middle at -Z. Also
-//     [Nowrouzezahrai2011, Eq. 6].
+//     formula of [Debevec98], (x, y) r with r = acos(z) / (pi sqrt(x^2 + y^2)); its words put the middle at
+//     -Z. Also [Nowrouzezahrai2011, Eq. 6].
 //   mirrorBall: the disc is the silhouette of the ball, seen in the direction -Z from ballDistance_radii, on
-//   an image
-//     plane across that direction. At infinity the polar angle is 2 asin(radius). At a distance D the
-//     directions within asin(1 / D) of -Z are behind the ball and not shown.
+//     an image plane across that direction. At infinity the polar angle is 2 asin(radius). At a distance D
+//     the directions within asin(1 / D) of -Z are behind the ball and not shown.
 //   octahedral: [Clarberg2008, Sec. 3] with +Z in the middle and -Z in the corners; every texel has the same
-//   solid
-//     angle.
+//     solid angle.
 //
 // Degenerate directions: the zero direction counts as +Z; what has no azimuth (-Z on a disc) lies at X > 0, Y
 // = 0. NaN gives numbers in [0, 1]. Squares of components neither overflow nor vanish in the number type.

@@ -26,8 +26,7 @@ std::vector<double> texelWeights(int width, int height, TexelWeight weight);
 
 // Which side of a region is the longer one.
 //   angle: its extents in longitude and latitude are compared as angles: texels, if the image is twice as
-//   wide
-//     as high
+//     wide as high
 //   arc: the extent in longitude is that of the parallel through its middle, the angle times the cosine of
 //     the latitude
 enum class LongerSide : uint8_t { angle, arc };

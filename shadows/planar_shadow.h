@@ -3,23 +3,19 @@
 //
 // Steps of planarShadow:
 //  1. Samples at the plane's height or below do not light its front and are left out; without any other,
-//  nothing is in
-//     shadow. Samples must be finite: PreconditionError.
+//     nothing is in shadow. Samples must be finite: PreconditionError.
 //  2. The casters are cut at the plane (castersAbove), once for all samples, and below each sample that is
-//  lower than
-//     the highest caster, at 1 - kNearestToLight of its height. False shadows and anti-shadows are
-//     impossible.
+//     lower than the highest caster, at 1 - kNearestToLight of its height. False shadows and anti-shadows
+//     are impossible.
 //  3. The texture is fitted to the rectangle around all shadows, at most the one around the receiver, both
-//  widened by
-//     the blur's reach. Texels are squares of 4, 5, 6 or 7 times a power of two metres and lie on a grid
-//     around the frame's origin: while a light or a caster moves a little they stay where they are.
+//     widened by the blur's reach. Texels are squares of 4, 5, 6 or 7 times a power of two metres and lie on
+//     a grid around the frame's origin: while a light or a caster moves a little they stay where they are.
 //  4. For each sample the casters are projected in the profile's vertex arithmetic (planeShadowMatrix, with
-//  the light
-//     divided by its height, so that points on the plane stay to the bit) and drawn with the rasterizer's
-//     rules. Blocked samples are counted as integers, so that neither order, threads nor tiles change a bit.
+//     the light divided by its height, so that points on the plane stay to the bit) and drawn with the
+//     rasterizer's rules. Blocked samples are counted as integers, so that neither order, threads nor tiles
+//     change a bit.
 //  5. shadow = blocked / samples, rounded to float; then the Gaussian blur of raster/blur.h in the profile's
-//  fragment
-//     arithmetic, limited to 1. What no sample's shadow reaches is exactly 0.
+//     fragment arithmetic, limited to 1. What no sample's shadow reaches is exactly 0.
 #pragma once
 
 #include <cstdint>

@@ -1,12 +1,11 @@
 // Shadow maps [Williams78]: what a light sees first, and how far away it is.
 //
 // The map of a light has one layer, or six (the faces of a cube) for point lights and wide spot lights.
-// Points of the world are taken to the frame of a layer, q = (right . d, down . d, forward . d) with d = p -
-// origin, and from there to texels (u to the right, v downwards, texel (i, j) covers [i, i + 1] x [j, j + 1])
-// and depth:
-//   directional:  u = centreU + scale q.x        v = centreV + scale q.y        z = depthOffset + depthScale
-//   q.z perspective:  u = centreU + scale q.x / q.z  v = centreV + scale q.y / q.z  z = depthScale -
-//   depthOffset / q.z
+// Points of the world are taken to the frame of a layer, q = (right . d, down . d, forward . d) with
+// d = p - origin, and from there to texels (u to the right, v downwards, texel (i, j) covers [i, i + 1] x
+// [j, j + 1]) and depth:
+//   directional:  u = centreU + scale q.x        v = centreV + scale q.y        z = depthOffset + depthScale q.z
+//   perspective:  u = centreU + scale q.x / q.z  v = centreV + scale q.y / q.z  z = depthScale - depthOffset / q.z
 // z is 0 at the near and 1 at the far plane. Casters nearer than the near plane are drawn at z = 0, not
 // clipped.
 //

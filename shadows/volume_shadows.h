@@ -36,8 +36,7 @@ struct VolumeShadowStatistics {
 
 // The masks of a view. Where the mask and the depths differ from the truth:
 //   - Depths are compared after the rounding of the depth format and the raster arithmetic. The light cap of
-//   a
-//     triangle has the bits of the triangle itself, which therefore never shadows itself. A surface within
+//     a triangle has the bits of the triangle itself, which therefore never shadows itself. A surface within
 //     some steps of depth of a volume's face may be on the wrong side of it.
 //   - The vertices are snapped to subpixels (rule 3), so borders are off by up to 2^-n of a pixel.
 //   - The stencil counts modulo 256: a point behind a multiple of 256 casting triangles counts as lit.
