@@ -46,13 +46,17 @@ std::vector<BitWay> waysOf(const WaySelection& selection, const BitCase& c) {
     const auto threadCounts = choices(selection.threads, c.hasThreads, kThreadCounts);
     const auto tileSizes = choices(selection.tileSize, c.hasTiles, kTileSizes);
     std::vector<BitWay> ways;
-    for (const IsaLevel level : levels)
-        for (const int threads : threadCounts)
-            for (const int tileSize : tileSizes) {
-                const bool isFirst = threads == threadCounts.front() && tileSize == tileSizes.front();
-                if (selection.everyCombination || level == levels.front() || isFirst)
-                    ways.push_back({level, threads, tileSize});
-            }
+    for (const IsaLevel level : levels) {
+        if (selection.everyCombination || level == levels.front()) {
+            for (const int threads : threadCounts)
+                for (const int tileSize : tileSizes) ways.push_back({level, threads, tileSize});
+        } else {
+            // Each number of threads and each tile size once.
+            for (size_t i = 0; i < std::max(threadCounts.size(), tileSizes.size()); i++)
+                ways.push_back({level, threadCounts[std::min(i, threadCounts.size() - 1)],
+                                tileSizes[std::min(i, tileSizes.size() - 1)]});
+        }
+    }
     return ways;
 }
 

@@ -29,7 +29,7 @@ class Bits(CliCase):
         self.assertEqual([result["ways"] for result in report["results"]], [1, 1])
         default, every = (json.loads(self.expect(0, "bits", "--json", *options).stdout)["results"][0]["ways"]
                           for options in ([], ["--all"]))
-        self.assertEqual(every, 9 * (default - 8))
+        self.assertEqual(every, 3 * default - 18)
         self.expect_error("--isa", "bits", "--isa", "v9")
         self.expect_error("--tile", "bits", "--tile", 20)
         self.expect_error("--threads", "bits", "--threads", -1)
@@ -39,7 +39,7 @@ class Bits(CliCase):
         text = self.expect(1, "bits").stdout
         self.assertRegex(text, r"different: count/one: \w+, 2 threads, tile 64: plane numbers, tile at \(64, 32\), "
                                r"pixel \(66, 33\) channel 1: 45b7a800 \(5877\) instead of 45b7a000 \(5876\) "
-                               r"as with \w+, 1 thread, tile 64; 3 of \d+ ways differ\n")
+                               r"as with \w+, 1 thread, tile 64; \d+ of \d+ ways differ\n")
         self.assertIn("0 of 2 cases have the bits", text)
         report = json.loads(self.expect(1, "bits", "--json", "--case", "*/two").stdout)
         self.assertEqual((report["checked"], report["same"]), (1, 0))

@@ -70,7 +70,7 @@ TEST_CASE("OneChangedWordIsFoundAndNamed") {
     const BitResult result = checkCase(c, ways, reference);
     REQUIRE(result.verdict == BitVerdict::different);
     REQUIRE(result.difference);
-    CHECK(result.differing.size() == 3);
+    CHECK(result.differing.size() == 3 + usableIsaLevels().size() - 1);
     CHECK(result.difference->way.threads == 2);
     CHECK(result.difference->plane == "numbers");
     CHECK(result.difference->tileX == 64);
@@ -127,7 +127,13 @@ TEST_CASE("CasesThatTheReferenceLacksOrHasOtherwiseAreNotTheSame") {
 TEST_CASE("WaysCoverLevelsThreadsAndTiles") {
     const BitCase c = countingCase(never);
     const size_t levels = usableIsaLevels().size();
-    CHECK(waysOf({}, c).size() == 9 + levels - 1);
+    CHECK(waysOf({}, c).size() == 9 + 3 * (levels - 1));
+    for (const IsaLevel level : usableIsaLevels())
+        for (const int threads : {1, 2, 7}) {
+            const auto ways = waysOf({}, c);
+            CHECK(std::ranges::any_of(
+                ways, [&](const BitWay& way) { return way.level == level && way.threads == threads; }));
+        }
     WaySelection selection;
     selection.everyCombination = true;
     CHECK(waysOf(selection, c).size() == 9 * levels);
