@@ -12,9 +12,9 @@
 #include <array>
 #include <cstring>
 #include <string_view>
-#include <thread>
 
 #include "ar/image_io.h"
+#include "numeric/parallel.h"
 
 namespace etalon {
 namespace {
@@ -51,7 +51,7 @@ bool isReserved(const Imf::Header& header, const std::string& name) {
 
 }  // namespace
 
-std::vector<std::byte> encodeExr(const Frame& frame) {
+std::vector<std::byte> encodeExr(const Frame& frame, int threads) {
     checkFrame(frame);
     ETALON_CHECK(frame.width > 0 && frame.height > 0, "a frame of {}x{}", frame.width, frame.height);
     static_assert(sizeof(float) == 4 && sizeof(uint32_t) == 4);
@@ -75,11 +75,13 @@ std::vector<std::byte> encodeExr(const Frame& frame) {
     // Blocks of rows are compressed side by side; the bytes are the same for any number of threads.
     constexpr int kRowsPerBlock = 16;  // of this compression
     const int blocks = (frame.height - 1) / kRowsPerBlock + 1;
-    const int threads = std::min(static_cast<int>(std::thread::hardware_concurrency()), blocks);
-    if (Imf::globalThreadCount() < threads) Imf::setGlobalThreadCount(threads);
+    // The library counts helpers: with 0 the calling thread does the work.
+    const int helpers = std::min(threads == 0 ? hardwareThreads() : threads, blocks);
+    const int pool = helpers > 1 ? helpers : 0;
+    if (Imf::globalThreadCount() < pool) Imf::setGlobalThreadCount(pool);
     MemoryStream stream;
     {
-        Imf::OutputFile file(stream, header, threads);
+        Imf::OutputFile file(stream, header, pool);
         file.setFrameBuffer(planes);
         file.writePixels(frame.height);
     }
