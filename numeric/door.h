@@ -116,6 +116,7 @@ class PassesIn {
 
   private:
     EmulatedScope format_;
+    EmulatedItemsScope items_;
     const Table& table_;
 };
 template <class Table>

@@ -1,8 +1,24 @@
 // The format that numeric/emulated.h computes in: a value of the calling thread. EmulatedScope sets it, and
 // parallelFor hands it on to its threads.
+//
+// Stochastic rounding. Between two neighbours of the format that are one quantum apart, an exact result whose
+// magnitude is the smaller one's plus a fraction f of the quantum, 0 <= f < 1, becomes the larger one where
+//     f > (u + 1/2) 2^-24,  u a whole number from 0 to 2^24 - 1
+// is drawn: with probability f to within 2^-25, never for f = 0. u is the 24 leading bits of a hash,
+//     h = m(m(m(m(seed + operation) ^ item) ^ bits of a) ^ bits of b),
+// m the step of splitmix64 [Steele2014] on its argument as the state, the seed that of the format, the operation an
+// EmulatedOperation, a and b its operands as doubles (b is 0 where there is one), the item a key of the lane that the
+// pass sets: its pixel, say. So nothing depends on the order of work: lanes, tiles and threads that skip or repeat some
+// change no bit, and equal expressions of an item are equal numbers. The price: an operation that an item repeats on
+// the same operands is rounded the same way again, so that a sum of equal terms that once stays where it is stays
+// there; a pass that adds up such terms puts the number of the term into the item's key. Conversions to the format
+// have item 0: equal numbers are converted to equal numbers. pow, atan2, sine and cosine draw with the fraction of their
+// value in double.
 #pragma once
 
+#include <array>
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 
@@ -32,6 +48,10 @@ struct EmulatedFormat {
     int64_t keptBits = 0;         // of a double's pattern, if the format truncates
     Path path = Path::nearestEven;
     Rounding rounding = Rounding::nearestEven;
+    Division division = Division::exact;
+    Power power = Power::exact;
+    bool hasPlainDivision = true;  // quotients and roots are those of double, rounded
+    uint64_t seed = 0;
 
     constexpr EmulatedFormat() = default;
     constexpr explicit EmulatedFormat(Format f)
@@ -47,7 +67,11 @@ struct EmulatedFormat {
           lowestExponent(f.minExponent - (f.subnormals == Subnormals::keep ? f.significandBits - 1 : 0)),
           keptBits(-(int64_t{1} << (kDoubleBits - f.significandBits))),
           path(pathOf(f)),
-          rounding(f.rounding) {}
+          rounding(f.rounding),
+          division(f.division),
+          power(f.power),
+          hasPlainDivision(f.division == Division::exact && f.rounding != Rounding::stochastic),
+          seed(f.seed) {}
 
   private:
     static constexpr int kDoubleBits = 53;
@@ -88,6 +112,49 @@ class EmulatedScope {
 
   private:
     EmulatedFormat before_;
+};
+
+// What draws (above), as a part of the key. The numbers are part of the rules.
+enum class EmulatedOperation : uint64_t {
+    sum = 1,  // also differences: a - b is a + -b
+    product = 2,
+    quotient = 3,
+    root = 4,
+    reciprocal = 5,
+    reciprocalRoot = 6,
+    conversion = 7,
+    logarithm = 8,
+    exponential = 9,
+    power = 10,
+    angle = 11,
+    sine = 12,
+    cosine = 13,
+};
+
+// The keys of the items that the lanes of the calling thread work on. 0 until a pass sets them; parallelFor starts each
+// of its items with 0.
+inline constexpr int kEmulatedItems = 16;
+struct EmulatedItems {
+    std::array<uint64_t, kEmulatedItems> keys{};
+};
+extern thread_local constinit EmulatedItems emulatedItems [[gnu::tls_model("initial-exec")]];
+
+// Lane i works on keys[i]; lanes beyond the `count` keys, of which there are at most kEmulatedItems, on 0.
+inline void setEmulatedItems(const uint64_t* keys, int count) {
+    for (int i = 0; i < kEmulatedItems; i++)
+        emulatedItems.keys[static_cast<size_t>(i)] = i < count ? keys[i] : 0;
+}
+
+// All items are 0 at its beginning, and at its end what they were before.
+class EmulatedItemsScope {
+  public:
+    EmulatedItemsScope() : before_(emulatedItems) { emulatedItems = EmulatedItems(); }
+    ~EmulatedItemsScope() { emulatedItems = before_; }
+    EmulatedItemsScope(const EmulatedItemsScope&) = delete;
+    EmulatedItemsScope& operator=(const EmulatedItemsScope&) = delete;
+
+  private:
+    EmulatedItems before_;
 };
 
 // What an object that computes in T keeps of the format of the thread that made it, to compute in the same
