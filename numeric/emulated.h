@@ -321,6 +321,9 @@ struct Emulated {
     friend auto operator!=(Emulated a, Emulated b) { return a.v != b.v; }
 };
 
+template <class D>
+inline constexpr bool kIsEmulated<Emulated<D>> = true;
+
 // Per lane: c ? a : b.
 inline Emulated<double> select(bool c, Emulated<double> a, Emulated<double> b) { return c ? a : b; }
 template <int N>

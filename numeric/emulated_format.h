@@ -12,7 +12,8 @@
 // change no bit, and equal expressions of an item are equal numbers. The price: an operation that an item repeats on
 // the same operands is rounded the same way again, so that a sum of equal terms that once stays where it is stays
 // there; a pass that adds up such terms puts the number of the term into the item's key. Conversions to the format
-// have item 0: equal numbers are converted to equal numbers. pow, atan2, sine and cosine draw with the fraction of their
+// have item 0: equal numbers are converted to equal numbers. The shading of fragments has the place of the sample in
+// subpixels as its items, the mean over the samples of a pixel that of the pixel; other passes have 0. pow, atan2, sine and cosine draw with the fraction of their
 // value in double.
 #pragma once
 
@@ -143,6 +144,22 @@ extern thread_local constinit EmulatedItems emulatedItems [[gnu::tls_model("init
 inline void setEmulatedItems(const uint64_t* keys, int count) {
     for (int i = 0; i < kEmulatedItems; i++)
         emulatedItems.keys[static_cast<size_t>(i)] = i < count ? keys[i] : 0;
+}
+
+// For passes over a number type T, of `lanes` lanes: lane i works on the item keyOf(i). Nothing where T is no emulated
+// number or its rounding does not draw.
+template <class T>
+inline constexpr bool kIsEmulated = false;
+template <class T, int lanes, class KeyOf>
+void setItemsOf(KeyOf&& keyOf) {
+    if constexpr (kIsEmulated<T>) {
+        if (emulatedFormat.rounding != Rounding::stochastic) return;
+        for (int i = 0; i < lanes; i++) emulatedItems.keys[static_cast<size_t>(i)] = keyOf(i);
+    }
+}
+// The key of a place in an image, in pixels or subpixels.
+constexpr uint64_t itemOfPlace(int64_t x, int64_t y) {
+    return static_cast<uint64_t>(y) << 32 | (static_cast<uint64_t>(x) & 0xffffffffu);
 }
 
 // All items are 0 at its beginning, and at its end what they were before.

@@ -265,6 +265,40 @@ TEST_CASE("WhatDoubleRoundsOntoTheBoundOfADrawIsRoundedByTheExactValue") {
     mpfr_clear(exact);
 }
 
+// Where double alone would put 1 / sqrt(a) on the bound of the draw or beyond it: its two roundings do either.
+TEST_CASE("ReciprocalRootsAreRoundedByTheExactValue") {
+    Format format = formatWithSeed(kFp32, 1);
+    format.division = Division::reciprocal;
+    const EmulatedScope scope(format);
+    const EmulatedItemsScope items;
+    StochasticReference reference(format);
+    constexpr int kWanted = 4, kBoundExponent = -49;  // bounds in (1/2, 1) are odd multiples of 2^-49
+    int onBound = 0, beyondBound = 0;
+    mpfr_t exact;
+    mpfr_init2(exact, 200);
+    for (double a = 1.0 + 0x1p-23; a < 4.0 && (onBound < kWanted || beyondBound < kWanted); a += 0x1p-23) {
+        const double inDouble = 1.0 / std::sqrt(a);
+        const auto half = static_cast<int64_t>(std::floor(std::ldexp(inDouble, -kBoundExponent - 1)));
+        const double bound = std::ldexp(static_cast<double>(2 * half + 1), kBoundExponent);
+        if (std::abs(inDouble - bound) > 0x1p-52) continue;
+        mpfr_set_d(exact, a, MPFR_RNDN);
+        mpfr_rec_sqrt(exact, exact, MPFR_RNDN);
+        const bool isAbove = mpfr_cmp_d(exact, bound) > 0;
+        if (isAbove == (inDouble > bound) && inDouble != bound) continue;
+        int& count = inDouble == bound ? onBound : beyondBound;
+        if (count++ >= kWanted) continue;
+        const uint64_t drawn = static_cast<uint64_t>(half) & ((1u << kDrawnBits) - 1);
+        const uint64_t item = itemThatDraws(drawn, format.seed, Op::reciprocalRoot, a, 0.0);
+        setEmulatedItems(&item, 1);
+        reference.setItem(item);
+        CAPTURE(a);
+        CHECK(squareRoot(E(a)).v == reference.root(a));
+    }
+    CHECK(onBound >= kWanted);
+    CHECK(beyondBound >= kWanted);
+    mpfr_clear(exact);
+}
+
 TEST_CASE("TheMeanOfManyDrawsIsTheExactResult") {
     constexpr int kDraws = 1 << 16;
     constexpr double kBias = 0x1p-25;    // of a quantum: half a step of the draws
