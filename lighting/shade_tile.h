@@ -311,6 +311,8 @@ void TileShaderOf<T>::shadeShadowed(const Bucket& bucket) {
             chunk_.emplace_back(group, surfaceOf(group, true, true));
             setPoints(group, chunk_.back().second, first);
         });
+        // Look-ups take the points in groups of their own.
+        setItemsOf<T, N>([](int) { return 0u; });
         for (size_t l = 0; l < casts_.size(); l++)
             if (casts_[l])
                 job_.visibility->find(l, points_, std::span(visibility_).subspan(l * kChunk, count));

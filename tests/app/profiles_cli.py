@@ -29,10 +29,18 @@ exponent = 20
 [[mesh]]
 file = "meshes/sphere.ply"
 material = "matt"
+[[plane]]
+point = [0, -1, 0]
+normal = [0, 1, 0]
+size_m = [6, 6]
+material = "matt"
 [[light]]
 kind = "directional"
 direction = [-1, -1, -1]
 irradiance = [3, 3, 3]
+shadow = "map"
+shadow_size = 64
+shadow_taps = 2
 """
 
 

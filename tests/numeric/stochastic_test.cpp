@@ -227,13 +227,13 @@ TEST_CASE("WhatDoubleRoundsOntoTheBoundOfADrawIsRoundedByTheExactValue") {
     };
     const auto check = [&](Op operation, double a, double b, double inDouble, auto&& of) {
         CAPTURE(static_cast<int>(operation));
-        REQUIRE(drawnAt(inDouble) >= 0);
-        const uint64_t item =
-            itemThatDraws(static_cast<uint64_t>(drawnAt(inDouble)), kFormat.seed, operation, a, b);
+        const int64_t drawn = drawnAt(std::abs(inDouble));
+        REQUIRE(drawn >= 0);
+        const uint64_t item = itemThatDraws(static_cast<uint64_t>(drawn), kFormat.seed, operation, a, b);
         setEmulatedItems(&item, 1);
         reference.setItem(item);
         const double result = of(E(a), E(b)).v;
-        CHECK(result > inDouble);
+        CHECK(std::abs(result) > std::abs(inDouble));
         CHECK(result == (operation == Op::sum        ? reference.sum(a, b)
                          : operation == Op::quotient ? reference.quotient(a, b)
                                                      : reference.root(a)));
@@ -254,6 +254,8 @@ TEST_CASE("WhatDoubleRoundsOntoTheBoundOfADrawIsRoundedByTheExactValue") {
         if (drawnAt(a / b) >= 0 && isBelowExact(a / b)) break;
     }
     check(Op::quotient, a, b, a / b, [](E x, E y) { return x / y; });
+    check(Op::quotient, a, -b, a / -b, [](E x, E y) { return x / y; });
+    check(Op::quotient, -a, -b, a / b, [](E x, E y) { return x / y; });
     a = 1.0;
     while (true) {
         a += 0x1p-23;
