@@ -1,6 +1,7 @@
 #include "app/command_line.h"
 #include "app/golden_support.h"
 #include "app/verbs.h"
+#include "ar/profile_file.h"
 #include "ar/render_scene.h"
 #include "ar/scene_loader.h"
 #include "bitcheck/bit_case.h"
@@ -12,7 +13,9 @@ namespace {
 etalon::Frame renderGolden(const etalon::GoldenManifest& manifest, const etalon::GoldenCase& golden) {
     etalon::RenderOptions options;
     options.request.outputs = golden.outputs;
-    options.profile = golden.profile;
+    options.profile = etalon::isProfileFile(golden.profile)
+                          ? etalon::readProfileFile(manifest.resolve(golden.profile))
+                          : etalon::loadProfile(golden.profile);
     return etalon::renderScene(etalon::loadScene(manifest.resolve(golden.scene)), options).frame;
 }
 
@@ -24,6 +27,7 @@ int main(int argc, char** argv) {
     etalon::Command command;
     etalon::addRender(command);
     etalon::addPlan(command);
+    etalon::addProfiles(command);
     etalon::addProbe(command);
     etalon::addCompare(command);
     etalon::addCheck(command, golden);

@@ -6,6 +6,7 @@
 #include "app/verbs.h"
 #include "ar/atomic_file.h"
 #include "ar/image_io.h"
+#include "ar/profile_file.h"
 #include "ar/transform.h"
 #include "probes/convert.h"
 #include "numeric/text.h"
@@ -54,7 +55,7 @@ ExitCode runProbeConvert(const ProbeConvertVerb& verb) {
     conversion.shape = shapeOf(verb, source);
     conversion.resampling = memberOfName<Resampling>(kResamplings, verb.resampling);
     conversion.samplesPerAxis = verb.samples;
-    const Profile& profile = *findProfile(verb.profile);
+    const Profile profile = loadProfile(verb.profile);
     conversion.fractionBits = profile.textureFractionBits;
     // The frame of the result, about +Y from that of the source or of the world.
     const SinCos turn = sinCosOfDegrees(verb.rotation_deg);
@@ -94,7 +95,7 @@ void addProbeConvert(Verb& probe) {
         .range(-1e6, 1e6);
     verb.addFlag("--upright", options->upright,
                  "The result is in world axes; default: in those of the source");
-    verb.add("--profile", options->profile, "Arithmetic profile").oneOf(profileNames());
+    verb.add("--profile", options->profile, "Arithmetic profile: a name (etalon profiles) or a TOML file");
     addIsaOption(verb);
     addThreadsOption(verb, options->threads);
     verb.onRun([options] { return runProbeConvert(*options); });

@@ -1,13 +1,14 @@
 #include "app/scene_options.h"
 
 #include "app/machine_options.h"
-#include "raster/profile.h"
+#include "ar/profile_file.h"
 
 namespace etalon {
 
 void SceneOptions::addTo(Verb& verb) {
     verb.add("scene", scene, "Scene file (TOML)").required();
-    verb.add("--profile", profile, "Arithmetic profile; default: the scene's").oneOf(profileNames());
+    verb.add("--profile", profile,
+             "Arithmetic profile: a name (etalon profiles) or a TOML file; default: the scene's");
     verb.add("--outputs", outputs, "Outputs instead of the scene's").delimiter(',').oneOf(kOutputNames);
     verb.addFlag("--strict", strict, "Questionable input (negative or NaN radiance) is an error");
     addIsaOption(verb);
@@ -18,7 +19,7 @@ void SceneOptions::addTo(Verb& verb) {
 RenderOptions SceneOptions::renderOptions() const {
     RenderOptions options;
     options.request.outputs = outputs;
-    options.profile = profile;
+    if (!profile.empty()) options.profile = loadProfile(profile);
     options.raster = raster;
     options.strict = strict;
     return options;

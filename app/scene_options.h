@@ -11,7 +11,7 @@ namespace etalon {
 class Verb;
 
 struct SceneOptions {
-    std::string scene, profile;
+    std::string scene, profile;  // the profile as a name or a file; empty: the scene's
     std::vector<std::string> outputs;
     bool strict = false;
     RasterOptions raster;

@@ -11,6 +11,7 @@ struct BitCase;        // bitcheck/bit_case.h
 
 void addRender(Verb& command);
 void addPlan(Verb& command);
+void addProfiles(Verb& command);
 void addCompare(Verb& command);
 void addCheck(Verb& command, const GoldenSupport& support);
 void addAccept(Verb& command, const GoldenSupport& support);

@@ -27,7 +27,7 @@ class SceneRenderer {
     SceneRenderer(const Scene& scene, const RenderOptions& options)
         : scene_(scene),
           options_(options),
-          profile_(*findProfile(options.profile.empty() ? scene.render.profile : options.profile)),
+          profile_(options.profile ? *options.profile : scene.render.profile),
           view_(cameraViewOf(scene.camera)),
           shadows_(surfaces_, placed_, profile_, options.raster, scene.render.seed, options.progress) {}
 
@@ -204,7 +204,7 @@ class SceneRenderer {
         frame.width = view_.width;
         frame.height = view_.height;
         frame.metadata = {{"etalon.scene", scene_.file.filename().string()},
-                          {"etalon.profile", std::string(profile_.name)},
+                          {"etalon.profile", profile_.name},
                           {"etalon.rules", std::to_string(kRulesVersion)}};
         const std::vector<std::string>& asked =
             options_.request.outputs.empty() ? scene_.output.images : options_.request.outputs;
@@ -273,7 +273,7 @@ class SceneRenderer {
 
     const Scene& scene_;
     const RenderOptions& options_;
-    const Profile& profile_;
+    const Profile profile_;
     View view_;
     RenderResult result_;
     SurfaceScene surfaces_;

@@ -2,21 +2,23 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "ar/frame.h"
 #include "ar/plan.h"
 #include "ar/scene.h"
+#include "raster/profile.h"
 #include "raster/rasterizer.h"
 
 namespace etalon {
 
 struct RenderOptions {
     PlanRequest request;
-    std::string profile;   // empty: the scene's
-    RasterOptions raster;  // threads and tile size; change no bit
-    bool strict = false;   // questionable input (negative or NaN radiance) is an error
+    std::optional<Profile> profile;  // none: the scene's
+    RasterOptions raster;            // threads and tile size; change no bit
+    bool strict = false;             // questionable input (negative or NaN radiance) is an error
     std::function<void(const std::string& pass)> progress;
     std::function<void(uint64_t bytes)> announceMemory;  // called before memory of that size is taken
 };

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "lighting/surface_scene.h"
+#include "raster/profile.h"
 #include "shadows/planar_lights.h"
 #include "shadows/shadow_map.h"
 
@@ -174,9 +175,9 @@ struct Output {
 
 struct Render {
     int line = 0;
-    int samples = 1;              // per pixel: 1, 4 or 16
-    std::string profile = "f32";  // of profiles()
-    bool perVertex = false;       // lights are evaluated at vertices (Gouraud), else at pixels (Phong)
+    int samples = 1;  // per pixel: 1, 4 or 16
+    Profile profile = profiles().front();
+    bool perVertex = false;  // lights are evaluated at vertices (Gouraud), else at pixels (Phong)
     // Directions that ambient occlusion is found from, and texels along an edge of the depth map of each
     // (shadows/ambient_occlusion.h). 0 directions: surfaces see all of their surroundings.
     int occlusionDirections = 0, occlusionMapSize = 512;

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <map>
 
+#include "ar/profile_file.h"
 #include "ar/scene_parts.h"
 #include "numeric/text.h"
 #include "numeric/check.h"
-#include "raster/profile.h"
 
 namespace etalon {
 
@@ -81,7 +81,13 @@ Render readRender(const std::string& file, const TomlValue& value) {
             reader.failKey("samples", formatText("must be 1, 4 or 16, not {}", samples));
         render.samples = static_cast<int>(samples);
     }
-    if (reader.has("profile")) render.profile = reader.choice("profile", profileNames());
+    if (reader.has("profile")) {
+        const std::string given = reader.text("profile");
+        if (isProfileFile(given))
+            render.profile = readProfileFile(reader.existingFile("profile"));
+        else
+            render.profile = *findProfile(reader.choice("profile", profileNames()));
+    }
     constexpr std::string_view kLighting[] = {"per_pixel", "per_vertex"};
     if (reader.has("lighting")) render.perVertex = reader.choice("lighting", kLighting) == "per_vertex";
     if (reader.has("occlusion"))

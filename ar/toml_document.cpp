@@ -71,17 +71,16 @@ TomlValue converted(const toml::node& node) {
     return value;
 }
 
-std::string readText(const std::filesystem::path& path) {
+std::string readText(const std::filesystem::path& path, std::string_view kind) {
     std::error_code error;
     const std::filesystem::file_status status = std::filesystem::status(path, error);
-    if (!std::filesystem::exists(status))
-        throw InputError(formatText("{}: no such scene file", path.string()));
+    if (!std::filesystem::exists(status)) throw InputError(formatText("{}: no such {}", path.string(), kind));
     if (!std::filesystem::is_regular_file(status))
         throw InputError(formatText("{}: not a regular file", path.string()));
     const uintmax_t size = std::filesystem::file_size(path, error);
     if (!error && size > kMaxTomlBytes)
         throw InputError(
-            formatText("{}: {} bytes; a scene file has at most {}", path.string(), size, kMaxTomlBytes));
+            formatText("{}: {} bytes; a {} has at most {}", path.string(), size, kind, kMaxTomlBytes));
     std::ifstream stream(path, std::ios::binary);
     std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
     if (!stream) throw InputError(formatText("{}: cannot be read", path.string()));
@@ -111,8 +110,8 @@ int lineOfAssertion(std::string_view text) {
 
 }  // namespace
 
-TomlValue readToml(const std::filesystem::path& path) {
-    const std::string text = readText(path);
+TomlValue readToml(const std::filesystem::path& path, std::string_view kind) {
+    const std::string text = readText(path, kind);
     try {
         return converted(toml::parse(text, path.string()));
     } catch (const toml::parse_error& error) {

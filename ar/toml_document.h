@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace etalon {
@@ -23,11 +24,11 @@ struct TomlValue {
     std::vector<int> keyLines;      // table: where keys[i] stands
 };
 
-// The largest scene file that is read, in bytes.
+// The largest file that is read, in bytes.
 inline constexpr uintmax_t kMaxTomlBytes = 64u << 20;
 
-// Reads a TOML 1.0 file. InputError when it is missing, not a regular file, too large or not valid TOML; the
+// Reads a TOML 1.0 file; messages call it `kind`. InputError when it is missing, not a regular file, too large or not valid TOML; the
 // message has the line of the error.
-TomlValue readToml(const std::filesystem::path& path);
+TomlValue readToml(const std::filesystem::path& path, std::string_view kind = "scene file");
 
 }  // namespace etalon

@@ -79,6 +79,7 @@ class TileShaderOf final : public TileShader {
         bool ambient, diffuse, specular, mirror, distance, needNormal, needEye, needPlace;
     };
     Parts partsOf(const SurfaceMaterial& material) const;
+    static void setItems(const Group& group);
     Surface surfaceOf(const Group& group, bool needNormal, bool needPosition) const;
     void shadeShadowed(const Bucket& bucket);
     void resizePoints(size_t count);
@@ -144,6 +145,7 @@ TileShaderOf<T>::TileShaderOf(const ShadeJob& job)
 template <class T>
 void TileShaderOf<T>::collect(const PixelRectangle& rectangle, bool withPoints) {
     tile_.collect(*job_.target, rectangle);
+    setItemsOf<T, N>([](int) { return 0u; });
     setUpTriangles(withPoints);
     sortIntoBuckets();
 }
@@ -155,6 +157,7 @@ LitPoints TileShaderOf<T>::points(const PixelRectangle& rectangle) {
     for (size_t b = 1; b < buckets_.size(); b++)
         forEachLaneGroup<N>(buckets_[b].fragments.size(), [&](size_t first, int active) {
             const Group group = groupOf(buckets_[b], first, active);
+            setItems(group);
             setPoints(group, surfaceOf(group, true, true), group.number);
         });
     return points_;
@@ -175,6 +178,7 @@ void TileShaderOf<T>::run(size_t number, const PixelRectangle& rectangle, Shaded
         else
             forEachLaneGroup<N>(list.size(), [&](size_t first, int active) {
                 const Group group = groupOf(buckets_[b], first, active);
+                setItems(group);
                 b == 0 ? shadeBackground(group) : shadeSurface(buckets_[b], group);
             });
         (b == 0 ? statistics.backgroundFragments : statistics.surfaceFragments) += list.size();
@@ -269,6 +273,15 @@ typename TileShaderOf<T>::Group TileShaderOf<T>::groupOf(const Bucket& bucket, s
     return group;
 }
 
+// What the group's lanes draw with (numeric/emulated_format.h): the places of their samples.
+template <class T>
+void TileShaderOf<T>::setItems(const Group& group) {
+    setItemsOf<T, N>([&](int i) {
+        const auto lane = static_cast<size_t>(i);
+        return itemOfPlace(group.lanes.x_subpx[lane], group.lanes.y_subpx[lane]);
+    });
+}
+
 // What the corners of the group's triangles give its fragments.
 template <class T>
 typename TileShaderOf<T>::Surface TileShaderOf<T>::surfaceOf(const Group& group, bool needNormal,
@@ -294,14 +307,19 @@ void TileShaderOf<T>::shadeShadowed(const Bucket& bucket) {
         chunk_.clear();
         forEachLaneGroup<N>(count, [&](size_t first, int active) {
             const Group group = groupOf(bucket, begin + first, active);
+            setItems(group);
             chunk_.emplace_back(group, surfaceOf(group, true, true));
             setPoints(group, chunk_.back().second, first);
         });
+        // Look-ups take the points in groups of their own.
+        setItemsOf<T, N>([](int) { return 0u; });
         for (size_t l = 0; l < casts_.size(); l++)
             if (casts_[l])
                 job_.visibility->find(l, points_, std::span(visibility_).subspan(l * kChunk, count));
-        for (size_t g = 0; g < chunk_.size(); g++)
+        for (size_t g = 0; g < chunk_.size(); g++) {
+            setItems(chunk_[g].first);
             shadeSurface(bucket, chunk_[g].first, chunk_[g].second, Shadows{*this, g * N});
+        }
     }
 }
 
@@ -493,6 +511,9 @@ void TileShaderOf<T>::resolve(ShadeOutput output, const PixelRectangle& rectangl
     for (int row = 0; row < rectangle.height(); row++) {
         forEachLaneGroup<N>(width, [&](size_t first, int active) {
             const size_t firstPixel = static_cast<size_t>(row) * width + first;
+            setItemsOf<T, N>([&](int i) {
+                return itemOfPlace(rectangle.x0 + static_cast<int>(first) + i, rectangle.y0 + row);
+            });
             for (int c = 0; c < 3; c++) {
                 const Stored* from = values(output, c);
                 const auto sample = [&](size_t s) {

@@ -17,6 +17,8 @@ const char* roundingName(Rounding rounding) {
             return "up";
         case Rounding::down:
             return "down";
+        case Rounding::stochastic:
+            return "stochastic";
     }
     return "?";
 }
@@ -38,10 +40,14 @@ std::string arithmeticName(const Arithmetic& arithmetic) {
     const Format& f = arithmetic.format;
     for (const NamedFormat& named : namedFormats())
         if (named.format == f) return std::string(named.name);
-    return formatText("{} bits, exponents {} to {}, {}, subnormals {}, {}", f.significandBits, f.minExponent,
-                      f.maxExponent, roundingName(f.rounding),
-                      f.subnormals == Subnormals::keep ? "kept" : "flushed",
-                      f.overflow == Overflow::infinity ? "infinity" : "saturates");
+    std::string name = formatText("{} bits, exponents {} to {}, {}, subnormals {}, {}", f.significandBits,
+                                  f.minExponent, f.maxExponent, roundingName(f.rounding),
+                                  f.subnormals == Subnormals::keep ? "kept" : "flushed",
+                                  f.overflow == Overflow::infinity ? "infinity" : "saturates");
+    if (f.division == Division::reciprocal) name += ", division by reciprocal";
+    if (f.power == Power::exp2log2) name += ", power by exp2 and log2";
+    if (f.rounding == Rounding::stochastic) name += formatText(", seed {}", f.seed);
+    return name;
 }
 
 }  // namespace etalon

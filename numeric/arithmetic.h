@@ -44,7 +44,8 @@ inline constexpr Arithmetic Arithmetic::bf16{kBf16};
 inline constexpr Arithmetic Arithmetic::fp24R300{kFp24R300};
 
 // "fp64", "truth", the name of a named format (numeric/format.h), or a format's digits: "11 bits, exponents -14 to
-// 15, nearest-even, subnormals kept, infinity".
+// 15, nearest-even, subnormals kept, infinity", then "division by reciprocal", "power by exp2 and log2" and "seed 7"
+// where the format has them.
 std::string arithmeticName(const Arithmetic& arithmetic);
 
 }  // namespace etalon

@@ -118,6 +118,7 @@ class PassesIn {
 
   private:
     EmulatedScope format_;
+    EmulatedItemsScope items_;
     const Table& table_;
 };
 template <class Table>

@@ -148,6 +148,26 @@ Lanes<S, N> powInDouble(Lanes<S, N> x, Lanes<S, N> y, double lowest, bool extend
     });
 }
 
+// log2 and 2^p in double for results that are rounded to a format of at most kMaxSignificandBits bits with exponents
+// inside +-1000 (numeric/kernels/pow.glsl: domains and bounds); relative errors at most kLog2InDoubleError and
+// kExp2InDoubleError.
+inline constexpr double kLog2InDoubleError = 0x1p-47;
+inline constexpr double kExp2InDoubleError = 0x1p-45;
+template <class D>
+D log2InDouble(D x) {
+    if constexpr (std::is_same_v<D, double>)
+        return WideTexts<double>{}.log2Wide(x);
+    else
+        return byRegisters(x, x, [](auto a, auto) { return WideTexts<decltype(a)>{}.log2Wide(a); });
+}
+template <class D>
+D exp2InDouble(D p) {
+    if constexpr (std::is_same_v<D, double>)
+        return WideTexts<double>{}.exp2Wide(p);
+    else
+        return byRegisters(p, p, [](auto a, auto) { return WideTexts<decltype(a)>{}.exp2Wide(a); });
+}
+
 template <class D>
 D sinInDouble(D angle_rad, double lowest) {
     if constexpr (std::is_same_v<D, double>)

@@ -1,7 +1,8 @@
 // Emulated<D>: arithmetic in a number format that is a value of the run (numeric/format.h), not of the program,
 // over D = double or a register of lanes of double. One type serves every format, a user's own too. Each
-// operation gives the exact result rounded once to the format; Emulated of a format has the bits of Rounded of
-// it (numeric/rounded.h, which says why double is wide enough), which stays as its oracle.
+// operation gives the exact result rounded once to the format, but for formats that divide or raise to powers in steps
+// (numeric/format.h). Emulated of a format has the bits of Rounded of it, where there is one (numeric/rounded.h, which
+// says why double is wide enough); Rounded stays as its oracle.
 //
 // The format is that of the calling thread (numeric/emulated_format.h). Numbers of two formats must not meet.
 //
@@ -11,6 +12,7 @@
 
 #include <concepts>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 
 #include "numeric/elementary.h"
@@ -21,16 +23,63 @@
 
 namespace etalon {
 
+// Bit patterns as unsigned numbers, in the shape of D: what the draws of stochastic rounding are computed in.
+template <class D>
+struct DrawBits;
+template <>
+struct DrawBits<double> {
+    using Unsigned = uint64_t;
+    static Unsigned items() { return emulatedItems.keys[0]; }
+};
+template <int N>
+struct DrawBits<Lanes<double, N>> {
+    static_assert(N <= kEmulatedItems);
+    typedef uint64_t Unsigned __attribute__((vector_size(N * sizeof(uint64_t))));
+    static Unsigned items() {
+        Unsigned keys;
+        std::memcpy(&keys, emulatedItems.keys.data(), sizeof(keys));
+        return keys;
+    }
+};
+
 // The operations on one register, D = double or Lanes<double, N>.
 template <class D>
 struct EmulatedOperations {
-    // x rounded once to the format. A sum has the bits of the exact one where the format does not round to
-    // nearest even: sumOf.
-    [[gnu::noinline, gnu::pure]] static D rounded(D x) { return roundedInline(x); }
-    [[gnu::noinline, gnu::pure]] static D add(D a, D b) { return roundedInline(sumOf(a, b)); }
-    [[gnu::noinline, gnu::pure]] static D subtract(D a, D b) { return roundedInline(sumOf(a, -b)); }
-    [[gnu::noinline, gnu::pure]] static D multiply(D a, D b) { return roundedInline(a * b); }
-    [[gnu::noinline, gnu::pure]] static D divide(D a, D b) { return roundedInline(a / b); }
+    using Operation = EmulatedOperation;
+
+    [[gnu::noinline, gnu::pure]] static D add(D a, D b) {
+        return roundedInline(sumOf(a, b), Operation::sum, a, b);
+    }
+    [[gnu::noinline, gnu::pure]] static D subtract(D a, D b) {
+        return roundedInline(sumOf(a, -b), Operation::sum, a, -b);
+    }
+    [[gnu::noinline, gnu::pure]] static D multiply(D a, D b) {
+        return roundedInline(a * b, Operation::product, a, b);
+    }
+    [[gnu::noinline, gnu::pure]] static D divide(D a, D b) {
+        if (!emulatedFormat.hasPlainDivision) [[unlikely]]
+            return otherQuotient(a, b);
+        return roundedInline(a / b, Operation::quotient, a, b);
+    }
+    [[gnu::noinline, gnu::pure]] static D squareRoot(D a) {
+        if (!emulatedFormat.hasPlainDivision) [[unlikely]]
+            return otherRoot(a);
+        return roundedInline(etalon::squareRoot(a), Operation::root, a, D(0.0));
+    }
+    // x rounded once to the format: a conversion.
+    [[gnu::noinline, gnu::pure]] static D rounded(D x) {
+        return roundedInline(x, Operation::conversion, x, D(0.0));
+    }
+    // x, the value in double of an operation on numbers of the format, rounded once.
+    [[gnu::noinline, gnu::pure]] static D rounded(D x, Operation operation, D a, D b) {
+        return roundedInline(x, operation, a, b);
+    }
+    // x^y as the exponential of the product with the logarithm, each step rounded once.
+    [[gnu::noinline, gnu::pure]] static D powerInSteps(D x, D y) {
+        const D logarithm = rounded(log2InDouble(x), Operation::logarithm, x, D(0.0));
+        const D exponent = multiply(y, logarithm);
+        return rounded(exp2InDouble(exponent), Operation::exponential, exponent, D(0.0));
+    }
 
   private:
     using B = DoubleBits<D>;
@@ -53,25 +102,72 @@ struct EmulatedOperations {
         return generalSumOf(a, b);
     }
 
-    // a + b rounded to odd: where the sum is not exact, the double next to the exact sum with an odd last bit.
-    // What rounds it again sees on which side of every number of the format, and of every middle between two,
-    // the exact sum lies. The exact error is that of Knuth's TwoSum; it is NaN for sums that are not finite.
+    // The value whose double is `nearest`, and that is larger by something of the sign of `error`, rounded to odd:
+    // where it is no double, the one next to it with an odd last bit. What rounds that again sees on which side of every
+    // number of the format, of every middle between two and of every bound of a draw the exact value lies: those are
+    // doubles with an even last bit. A NaN error is none.
+    static D toOdd(D nearest, D error) {
+        const D zero(0.0);
+        const auto beyond = (nearest > zero && error < zero) || (nearest < zero && error > zero);
+        const auto bits = B::of(nearest) + B::minusOneWhere(beyond);
+        return select(error < zero || error > zero, B::from(bits | 1), nearest);
+    }
+
+    // a + b rounded to odd. The exact error is that of Knuth's TwoSum; it is NaN for sums that are not finite.
     static D generalSumOf(D a, D b) {
         const D sum = a + b, zero(0.0);
         const D partOfB = sum - a;
-        const D error = (a - (sum - partOfB)) + (b - partOfB);
-        const auto beyond = (sum > zero && error < zero) || (sum < zero && error > zero);
-        const auto bits = B::of(sum) + B::minusOneWhere(beyond);
-        const auto isInexact = error < zero || error > zero;
-        D odd = select(isInexact, B::from(bits | 1), sum);
+        const D odd = toOdd(sum, (a - (sum - partOfB)) + (b - partOfB));
         // IEEE 754: an exact difference of equal numbers is -0 when rounding down.
         if (emulatedFormat.rounding == Rounding::down)
-            odd = select(sum == zero, -select(isPlusZero(a) && isPlusZero(b), -zero, zero), odd);
+            return select(sum == zero, -select(isPlusZero(a) && isPlusZero(b), -zero, zero), odd);
         return odd;
     }
     static auto isPlusZero(D x) { return D(1.0) / x > D(std::numeric_limits<double>::max()); }
 
-    [[gnu::always_inline]] static D roundedInline(D x) {
+    // By reciprocals, or drawn. A quotient and a root in double are on the right side of all numbers of the format and of
+    // all middles (numeric/rounded.h), but not of the bounds of draws, which have 25 bits more.
+    [[gnu::noinline, gnu::pure]] static D otherQuotient(D a, D b) {
+        if (emulatedFormat.division == Division::reciprocal) return multiply(a, reciprocal(b));
+        return roundedInline(oddQuotientOf(a, b), Operation::quotient, a, b);
+    }
+    [[gnu::noinline, gnu::pure]] static D otherRoot(D a) {
+        if (emulatedFormat.division == Division::reciprocal) return reciprocal(reciprocalRoot(a));
+        const D root = etalon::squareRoot(a), square = root * root;
+        const D odd = toOdd(root, (a - square) - WideTexts<D>{}.productError(root, root, square));
+        return roundedInline(odd, Operation::root, a, D(0.0));
+    }
+    // The remainder a - b q is a double, and so exact.
+    static D oddQuotientOf(D a, D b) {
+        const D q = a / b, product = q * b;
+        const D rest = (a - product) - WideTexts<D>{}.productError(q, b, product);
+        return toOdd(q, select(b < D(0.0), -rest, rest));
+    }
+
+    // 1 / a rounded once.
+    [[gnu::noinline, gnu::pure]] static D reciprocal(D a) {
+        return roundedInline(oddQuotientOf(D(1.0), a), Operation::reciprocal, a, D(0.0));
+    }
+    // 1 / sqrt(a) rounded once. Two roundings in double could move it over a middle: one step of Newton's method makes
+    // them one, and the sign of what is left says on which side of the double the value is.
+    [[gnu::noinline, gnu::pure]] static D reciprocalRoot(D a) {
+        const D start = D(1.0) / etalon::squareRoot(a);
+        const D root = start + start * (D(0.5) * restOfReciprocalRoot(a, start));
+        // Zero and infinity have no rest.
+        const D nearest = select(root == root, root, start);
+        return roundedInline(toOdd(nearest, restOfReciprocalRoot(a, nearest)), Operation::reciprocalRoot, a,
+                             D(0.0));
+    }
+    // 1 - a r^2 for r near 1 / sqrt(a): the terms of the product that it rounds are below 2^-150.
+    static D restOfReciprocalRoot(D a, D r) {
+        WideTexts<D> texts;
+        const D square = r * r, squareLow = texts.productError(r, r, square);
+        const D product = a * square, productLow = texts.productError(a, square, product);
+        const D low = a * squareLow, lowest = texts.productError(a, squareLow, low);
+        return (((D(1.0) - product) - productLow) - low) - lowest;
+    }
+
+    [[gnu::always_inline]] static D roundedInline(D x, Operation operation, D a, D b) {
         const EmulatedFormat& f = emulatedFormat;
         switch (f.path) {
             case EmulatedFormat::Path::binary32:
@@ -83,7 +179,32 @@ struct EmulatedOperations {
             case EmulatedFormat::Path::general:
                 break;
         }
-        return generallyRounded(x);
+        return f.rounding == Rounding::stochastic ? generallyRounded(x, bound(operation, a, b))
+                                                  : generallyRounded(x, D(0.0));
+    }
+
+    // The fraction of a quantum beyond which stochastic rounding takes the larger magnitude
+    // (numeric/emulated_format.h).
+    [[gnu::noinline, gnu::pure]] static D bound(Operation operation, D a, D b) {
+        using Bits = DrawBits<D>;
+        using Unsigned = typename Bits::Unsigned;
+        const uint64_t start = mixed(emulatedFormat.seed + static_cast<uint64_t>(operation));
+        const Unsigned items = operation == Operation::conversion ? Unsigned{} : Bits::items();
+        Unsigned hash = mixed(items ^ start);
+        hash = mixed(hash ^ __builtin_bit_cast(Unsigned, a));
+        hash = mixed(hash ^ __builtin_bit_cast(Unsigned, b));
+        // A whole number below 2^52 stands in the low bits of 2^52 plus it.
+        constexpr uint64_t kWholeNumberBits = 0x4330000000000000;
+        const D whole = __builtin_bit_cast(D, (hash >> kUndrawnBits) | kWholeNumberBits) - D(0x1p52);
+        return (whole + D(0.5)) * D(0x1p-24);
+    }
+    static constexpr int kUndrawnBits = 64 - 24;
+    template <class Unsigned>
+    static Unsigned mixed(Unsigned z) {
+        z = z + 0x9e3779b97f4a7c15u;
+        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+        z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+        return z ^ (z >> 31);
     }
 
     [[gnu::always_inline]] static D throughFloat(D x) {
@@ -123,7 +244,8 @@ struct EmulatedOperations {
         return select(x == x, B::from(B::of(r) | sign), D(f.whenNan));
     }
 
-    static D generallyRounded(D x) {
+    // `bound` is read where the rounding is stochastic.
+    [[gnu::noinline, gnu::pure]] static D generallyRounded(D x, D bound) {
         const EmulatedFormat& f = emulatedFormat;
         const D zero(0.0);
         const auto sign = B::of(x) & ~kMagnitudeBits;
@@ -137,6 +259,8 @@ struct EmulatedOperations {
         D r = cut;
         if (f.rounding == Rounding::nearestAway) {
             r = select(rest + rest >= quantum, cut + quantum, cut);
+        } else if (f.rounding == Rounding::stochastic) {
+            r = select(rest > bound * quantum, cut + quantum, cut);
         } else if (f.rounding != Rounding::towardZero) {
             // Away from zero above zero (up) or below (down).
             const auto isAway = f.rounding == Rounding::up ? x > zero : x < zero;
@@ -197,6 +321,9 @@ struct Emulated {
     friend auto operator!=(Emulated a, Emulated b) { return a.v != b.v; }
 };
 
+template <class D>
+inline constexpr bool kIsEmulated<Emulated<D>> = true;
+
 // Per lane: c ? a : b.
 inline Emulated<double> select(bool c, Emulated<double> a, Emulated<double> b) { return c ? a : b; }
 template <int N>
@@ -204,10 +331,10 @@ Emulated<Lanes<double, N>> select(Mask<double, N> c, Emulated<Lanes<double, N>> 
                                   Emulated<Lanes<double, N>> b) {
     return Emulated<Lanes<double, N>>::ofRepresentable(select(c, a.v, b.v));
 }
-// The square root rounded once. -0 gives -0; a negative number gives NaN, and +0 where the format has no NaN.
+// The square root rounded once, or by reciprocals (Division). -0 gives -0; a negative number gives NaN, and +0 where the format has no NaN.
 template <class D>
 Emulated<D> squareRoot(Emulated<D> a) {
-    return Emulated<D>::ofRepresentable(EmulatedOperations<D>::rounded(squareRoot(a.v)));
+    return Emulated<D>::ofRepresentable(EmulatedOperations<D>::squareRoot(a.v));
 }
 // Largest whole number that is not greater; always a number of the format. -0 stays -0, infinities and NaN stay.
 template <class D>
@@ -245,14 +372,32 @@ struct KeptFormat<Emulated<D>> {
     EmulatedScope enter() const { return EmulatedScope(format); }
 };
 
-// Computed in double with a relative error below 2^-43 and rounded once (numeric/elementary.h).
+// Computed in double with a relative error below 2^-43 and rounded once (numeric/elementary.h), but for powers in steps
+// (Power).
 template <class D>
 struct ElementaryFunctions<Emulated<D>> {
     using R = Emulated<D>;
-    static R atan2Of(R y, R x) { return R(atan2InDouble(y.v, x.v, emulatedFormat.lowestExponent, false)); }
-    static R powOf(R x, R y) { return R(powInDouble(x.v, y.v, emulatedFormat.lowestExponent, false)); }
-    static R sinOf(R x) { return R(sinInDouble(x.v, emulatedFormat.lowestExponent)); }
-    static R cosOf(R x) { return R(cosInDouble(x.v, emulatedFormat.lowestExponent)); }
+    static R atan2Of(R y, R x) {
+        return of(atan2InDouble(y.v, x.v, emulatedFormat.lowestExponent, false), EmulatedOperation::angle, y,
+                  x);
+    }
+    static R powOf(R x, R y) {
+        if (emulatedFormat.power == Power::exp2log2)
+            return R::ofRepresentable(EmulatedOperations<D>::powerInSteps(x.v, y.v));
+        return of(powInDouble(x.v, y.v, emulatedFormat.lowestExponent, false), EmulatedOperation::power, x,
+                  y);
+    }
+    static R sinOf(R x) {
+        return of(sinInDouble(x.v, emulatedFormat.lowestExponent), EmulatedOperation::sine, x, R(0.0));
+    }
+    static R cosOf(R x) {
+        return of(cosInDouble(x.v, emulatedFormat.lowestExponent), EmulatedOperation::cosine, x, R(0.0));
+    }
+
+  private:
+    static R of(D value, EmulatedOperation operation, R a, R b) {
+        return R::ofRepresentable(EmulatedOperations<D>::rounded(value, operation, a.v, b.v));
+    }
 };
 
 }  // namespace etalon

@@ -3,5 +3,6 @@
 namespace etalon {
 
 thread_local constinit EmulatedFormat emulatedFormat{kFp32};
+thread_local constinit EmulatedItems emulatedItems{};
 
 }  // namespace etalon

@@ -15,6 +15,8 @@ enum class Rounding {
     nearestAway,  // the nearer one; halfway, the one of larger magnitude
     up,           // the one that is not smaller
     down,         // the one that is not larger; an exact difference of equal numbers is -0
+    stochastic,  // drawn: the one of larger magnitude with the probability of the exact result's place between the
+                 // two (numeric/emulated_format.h says how)
 };
 
 // What happens to results below the smallest normal number.
@@ -28,17 +30,32 @@ enum class Subnormals {
 
 // What happens to results beyond the largest finite number.
 enum class Overflow {
-    infinity,  // as in IEEE 754: infinity where the rounding leads there (nearestEven, nearestAway; up above
-               // zero, down below), else the largest finite number; operations on infinities, division by
-               // zero and NaN as in IEEE 754
+    infinity,  // as in IEEE 754: infinity where the rounding leads there (nearestEven, nearestAway; stochastic where
+               // it draws so; up above zero, down below), else the largest finite number; operations on
+               // infinities, division by zero and NaN as in IEEE 754
     saturate,  // the format has neither infinities nor NaN: every result that would be infinite is the
                // largest finite number with its sign, every result that would be NaN is +0
+};
+
+// How quotients and square roots are made.
+enum class Division {
+    exact,  // the exact quotient or root rounded once
+    reciprocal,  // a / b is a times 1 / b, and the root of a is 1 / (1 / sqrt a), each of the two steps rounded once:
+    // hardware with instructions for reciprocals only, as R300's fragment programs (root: [MesaR300])
+};
+
+// How powOf (numeric/elementary.h) is made.
+enum class Power {
+    exact,  // the power rounded once
+    exp2log2,  // 2^(y log2 x), each of the three steps rounded once: hardware with instructions for log2 and exp2
+    // only [MesaR300]. What the steps give stands: 0^0 is NaN where the format has it, else 1, and the
+    // error grows with |y log2 x|
 };
 
 // A binary floating-point format with a sign bit: the numbers +-m * 2^e with 1 <= m < 2, m a multiple of
 // 2^(1 - significandBits), minExponent <= e <= maxExponent; zeros of both signs; with Subnormals::keep also
 // the multiples of 2^(minExponent - significandBits + 1) below 2^minExponent; with Overflow::infinity also
-// both infinities and one NaN. Usable as a template argument.
+// both infinities and one NaN; and how its operations are made. Usable as a template argument.
 struct Format {
     int significandBits;  // with the leading one
     int minExponent;      // of the smallest normal number
@@ -46,6 +63,9 @@ struct Format {
     Rounding rounding;
     Subnormals subnormals;
     Overflow overflow;
+    Division division = Division::exact;
+    Power power = Power::exact;
+    uint64_t seed = 0;  // of Rounding::stochastic
 
     friend constexpr bool operator==(const Format&, const Format&) = default;
 };
@@ -69,12 +89,12 @@ constexpr double smallestPositive(Format f) {
 // (nearestEven, nearestAway), or by less than all of it (the others), relative to the exact result.
 constexpr double epsilonOf(Format f) { return powerOfTwo(1 - f.significandBits); }
 
-// Largest significand and exponents for which Rounded is exact; rounded.h derives the first. The second keeps
+// Largest significand and exponents for which arithmetic through double is exact; rounded.h derives the first. The second keeps
 // every exact product, quotient and rounding constant well inside the range of double.
 inline constexpr int kMaxSignificandBits = 24;
 inline constexpr int kMaxFormatExponent = 400;
 
-// True if Rounded can emulate the format: 2 to 24 significand bits, exponents within +-400, 1 inside the
+// True if the format can be emulated (numeric/emulated.h): 2 to 24 significand bits, exponents within +-400, 1 inside the
 // normal range, and every number below the first whole-number binade rounds down to a finite number (floorOf
 // is exact).
 constexpr bool isSupported(Format f) {
@@ -128,7 +148,8 @@ inline constexpr Format kBf16{8, -126, 127, Rounding::nearestEven, Subnormals::k
 // The 24-bit float of R300 to R400 fragment programs: 1 sign, 7 exponent and 16 fraction bits. Documented:
 // the layout. From a single source: truncation, no NaN, no infinities, no subnormals; so all 127 non-zero
 // exponent codes are numbers, exponents -62 to 64. Assumed: a zero keeps its sign; 0/0 is +0. The hardware
-// divides as reciprocal times multiply; Rounded's own division is correctly truncated, the profile chooses.
+// divides as reciprocal times multiply and makes powers of log2 and exp2 [MesaR300]; here both are exact and rounded
+// once. A profile of a user's own takes division = "reciprocal" and power = "exp2log2" (docs/profiles.md).
 inline constexpr Format kFp24R300{17, -62, 64, Rounding::towardZero, Subnormals::flush, Overflow::saturate};
 
 struct NamedFormat {

@@ -30,6 +30,12 @@ namespace {
 #endif
 #endif
 
+// Nothing of another item shows in this one.
+void runItem(const std::function<void(size_t)>& body, size_t i) {
+    const EmulatedItemsScope items;
+    body(i);
+}
+
 #if defined(ETALON_PLAIN_THREADS)
 void runItems(size_t count, int threads, const std::function<void(size_t)>& body) {
     std::atomic<size_t> next{0};
@@ -40,7 +46,7 @@ void runItems(size_t count, int threads, const std::function<void(size_t)>& body
         try {
             requireDefaultFpEnvironment();
             const EmulatedScope scope(format);
-            for (size_t i = next++; i < count; i = next++) body(i);
+            for (size_t i = next++; i < count; i = next++) runItem(body, i);
         } catch (...) {
             const std::lock_guard lock(mutex);
             if (!failure) failure = std::current_exception();
@@ -73,7 +79,7 @@ void runItems(size_t count, int threads, const std::function<void(size_t)>& body
                           [&](const tbb::blocked_range<size_t>& range) {
                               requireDefaultFpEnvironment();
                               const EmulatedScope scope(format);
-                              for (size_t i = range.begin(); i != range.end(); i++) body(i);
+                              for (size_t i = range.begin(); i != range.end(); i++) runItem(body, i);
                           });
     });
 }
@@ -87,7 +93,7 @@ void parallelFor(size_t count, int threads, const std::function<void(size_t)>& b
     ETALON_CHECK(threads >= 0, "threads = {}", threads);
     requireDefaultFpEnvironment();
     if (threads == 1 || count <= 1) {
-        for (size_t i = 0; i < count; i++) body(i);
+        for (size_t i = 0; i < count; i++) runItem(body, i);
         return;
     }
     runItems(count, threads == 0 ? hardwareThreads() : threads, body);

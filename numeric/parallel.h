@@ -11,7 +11,8 @@ int hardwareThreads();
 
 // Calls body(i) once for every i in [0, count), on `threads` threads (0: all hardware threads; 1: the calling
 // thread, in order). Every thread that takes part first asserts the default floating-point control word, and
-// computes in the emulated format of the calling thread (numeric/emulated_format.h).
+// computes in the emulated format of the calling thread, with the keys of stochastic rounding 0 at the start of each
+// body (numeric/emulated_format.h).
 // The first exception that a body throws is rethrown here after the others have stopped.
 void parallelFor(size_t count, int threads, const std::function<void(size_t)>& body);
 

@@ -78,10 +78,16 @@ D perRegister(Function&& f, D a, Others... others) {
     }
 }
 
+// True if Rounded has the format.
+constexpr bool hasRounded(Format f) {
+    return isSupported(f) && (f.rounding == Rounding::nearestEven || f.rounding == Rounding::towardZero) &&
+           f.division == Division::exact && f.power == Power::exact;
+}
+
 // roundTo for D = double or at most one register of lanes.
 template <Format F, class D>
 D roundRegisterTo(D x) {
-    static_assert(isSupported(F));
+    static_assert(hasRounded(F));
     using B = DoubleBits<D>;
     constexpr bool kTowardZero = F.rounding == Rounding::towardZero;
     constexpr bool kSaturates = F.overflow == Overflow::saturate;
@@ -144,7 +150,7 @@ D addTowardZeroInDouble(D a, D b) {
 // Needs the default floating-point control word (fp_environment.h) and no contraction into FMA.
 template <Format F, class D = double>
 struct Rounded {
-    static_assert(isSupported(F));
+    static_assert(hasRounded(F));
     static constexpr Format kFormat = F;
 
     D v;  // always a number of F

@@ -1,8 +1,10 @@
-// Profiles: named sets of choices for arithmetic, storage and fixed function. What a run differs in from
-// another run of the same scene is this, and nothing else.
+// Profiles: sets of choices for arithmetic, storage and fixed function. What a run differs in from another run of the
+// same scene is this, and nothing else. A profile is a value: named ones stand here, a user composes others in a file
+// (ar/profile_file.h).
 #pragma once
 
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -13,8 +15,8 @@
 namespace etalon {
 
 struct Profile {
-    std::string_view name;
-    std::string_view meaning;              // one line, with what is documented and what is assumed
+    std::string name;
+    std::string meaning;                   // one line
     Arithmetic fragment;                   // fragments and texels
     RasterReal vertex = RasterReal::fp32;  // vertex transforms and depth
     DepthFormat depth = DepthFormat::d32f;
@@ -32,13 +34,13 @@ inline SamplerSettings samplerOf(const Profile& profile) {
     return settings;
 }
 
-// All profiles; the first is the default.
+// The named profiles; the first is the default.
 std::span<const Profile> profiles();
 
 // Their names, in the same order.
 std::vector<std::string_view> profileNames();
 
-// The profile of this name, or null.
+// The named profile, or null.
 const Profile* findProfile(std::string_view name);
 
 }  // namespace etalon

@@ -28,12 +28,11 @@ wide joinNumber(ScaledNumber a, wide lowest) {
     return select(tooHigh, wideFromBits(0x7FF00000u, 0x00000000u), select(tooLow, wide(0.0), r));
 }
 
-// x^y for a positive, finite, normal x and |y| <= 2^70; y log2(x) is cut off at +-1100.
-// 2^(y log2 x) in plain doubles, for results that are rounded to float: with |y log2 x| <= 150 the relative
-// error is below 2^-43.
+// log2(x) for a positive, finite, normal x in plain doubles: relative error below 2^-47; exact where it is a whole
+// number.
 //   log2 x = e + log2 c + 2/ln(2) atanh(s),  s = (m - c) / (m + c),
 // with c the one of 3/4, 1 and 5/4 that is near m, so that |s| <= 0.073.
-ScaledNumber scaledPower(wide x, wide y) {
+wide log2OfNumber(wide x) {
     ScaledNumber split = splitNumber(x);
     wide m = split.significand;
     boolean nearLow = m < wide(0.8671875);   // between 3/4 and 1
@@ -51,17 +50,47 @@ ScaledNumber scaledPower(wide x, wide y) {
     a = wide(1.0) / wide(5.0) + s2 * a;
     a = wide(1.0) / wide(3.0) + s2 * a;
     a = s + (s * s2) * a;
-    wide log2x = split.exponent + (log2c + wideFromBits(0x40071547u, 0x652B82FEu) * a);  // 2 / ln 2
+    return split.exponent + (log2c + wideFromBits(0x40071547u, 0x652B82FEu) * a);  // 2 / ln 2
+}
 
-    // 2^p = 2^whole e^z, whole the nearest integer: the first term left out is below 2^-46.
-    wide p = y * log2x;
-    p = select(p > wide(1100.0), wide(1100.0), select(p < wide(-1100.0), wide(-1100.0), p));
+// 2^p for |p| <= 1100 in plain doubles, 2^whole e^z with whole the nearest integer: relative error below 2^-45; exact
+// where p is a whole number.
+ScaledNumber exp2OfNumber(wide p) {
     wide whole = floor(p + wide(0.5));
     wide z = (p - whole) * wideFromBits(0x3FE62E42u, 0xFEFA39EFu);  // ln 2
     ScaledNumber r;
-    r.significand = wide(1.0) + z * exponentialSeries11(z);
+    r.significand = wide(1.0) + z * exponentialSeries11(z);  // the first term left out is below 2^-46
     r.exponent = whole;
     return r;
+}
+
+// log2(x) for a result that is rounded to a format: x = 0 or |x| >= 2^-1022. Minus infinity for either zero, NaN for x
+// < 0 and NaN, infinity for infinity.
+wide log2Wide(wide x) {
+    wide infinity = wideFromBits(0x7FF00000u, 0x00000000u);
+    boolean hasNumber = x > wide(0.0) && x < infinity;
+    wide result = log2OfNumber(select(hasNumber, x, wide(1.0)));
+    result = select(x == wide(0.0), -infinity, select(x == infinity, infinity, result));
+    return select(x >= wide(0.0), result, wideFromBits(0x7FF80000u, 0x00000000u));
+}
+
+// 2^p for a result that is rounded to a format with exponents inside +-1000: finite p are cut off there. Infinity for
+// infinity, 0 for minus infinity, NaN for NaN.
+wide exp2Wide(wide p) {
+    wide infinity = wideFromBits(0x7FF00000u, 0x00000000u);
+    wide bound = wide(1000.0);
+    wide bounded = select(p < bound, select(p > -bound, p, -bound), bound);
+    wide result = joinNumber(exp2OfNumber(bounded), wide(-1022.0));
+    result = select(p == infinity, infinity, select(p == -infinity, wide(0.0), result));
+    return select(p == p, result, wideFromBits(0x7FF80000u, 0x00000000u));
+}
+
+// x^y = 2^(y log2 x) in plain doubles for a positive, finite, normal x and |y| <= 2^70, for results that are rounded to
+// float: with |y log2 x| <= 150 the relative error is below 2^-43. y log2(x) is cut off at +-1100.
+ScaledNumber scaledPower(wide x, wide y) {
+    wide p = y * log2OfNumber(x);
+    p = select(p > wide(1100.0), wide(1100.0), select(p < wide(-1100.0), wide(-1100.0), p));
+    return exp2OfNumber(p);
 }
 
 // The same with log2 x and the product carried as sums of two numbers: relative error about 2^-55 before

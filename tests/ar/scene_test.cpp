@@ -99,7 +99,7 @@ TEST_CASE("SceneIsReadAsWritten") {
     const Scene scene = folder.load(sceneText());
     CHECK(scene.ambient == glm::dvec3(0.1, 0.2, 0.3));
     CHECK(scene.render.samples == 4);
-    CHECK(scene.render.profile == "f64");
+    CHECK(scene.render.profile.name == "f64");
     CHECK(scene.render.seed == 7);
     CHECK(scene.output.images == std::vector<std::string>{"beauty", "depth"});
     CHECK(scene.output.toneMap == "reinhard");
@@ -158,7 +158,7 @@ TEST_CASE("DefaultsFillWhatIsLeftOut") {
     CHECK(scene.output.images == std::vector<std::string>{"beauty"});
     CHECK(scene.output.toneMap == "linear");
     CHECK(scene.render.samples == 1);
-    CHECK(scene.render.profile == "f32");
+    CHECK(scene.render.profile.name == "f32");
     CHECK(scene.meshes[0].name == "mesh0");
     CHECK(scene.meshes[0].objectToWorld == std::vector<glm::dmat4>{glm::dmat4(1.0)});
 }

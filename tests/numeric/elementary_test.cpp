@@ -321,6 +321,55 @@ TEST_CASE("PowIsWithinItsBound") {
                kFloatErrorUlp);
 }
 
+TEST_CASE("Log2AndExp2InDoubleAreWithinTheirBounds") {
+    const Computed logarithm = [](double a, double) { return log2InDouble(a); };
+    const Computed exponential = [](double a, double) { return exp2InDouble(a); };
+    const auto exactLog2 = [](mpfr_ptr r, mpfr_srcptr a, mpfr_srcptr, mpfr_rnd_t m) {
+        return mpfr_log2(r, a, m);
+    };
+    const auto exactExp2 = [](mpfr_ptr r, mpfr_srcptr a, mpfr_srcptr, mpfr_rnd_t m) {
+        return mpfr_exp2(r, a, m);
+    };
+    // Numbers of the widest formats, near 1, and next to the ends of the intervals of the method.
+    const Generator numbers = [](RandomNumbers& random, int kind) {
+        if (kind % 3 == 0) return Arguments{spread(random, -423, 401), 0.0};
+        if (kind % 3 == 1) return Arguments{nearOne(random, -24, -1), 0.0};
+        const double end =
+            oneOf(random, {0.8671875, 1.1171875, 0x1.6a09e667f3bcdp+0, 0x1.6a09e667f3bcdp-1, 1.25});
+        return Arguments{end * nearOne(random, -50, -9), 0.0};
+    };
+    const Generator powers = [](RandomNumbers& random, int kind) {
+        if (kind % 3 == 0) return Arguments{random.uniform(-1000.0, 1000.0), 0.0};
+        if (kind % 3 == 1) return Arguments{signedSpread(random, -60, 9), 0.0};
+        return Arguments{random.below(1000) - 500 + 0.5 + signedSpread(random, -45, -2), 0.0};
+    };
+    // An ulp is at most 2^-52 of a number.
+    checkBound("log2 in double", worstError(logarithm, exactLog2, kDouble, numbers),
+               kLog2InDoubleError * 0x1p52);
+    checkBound("exp2 in double", worstError(exponential, exactExp2, kDouble, powers),
+               kExp2InDoubleError * 0x1p52);
+    for (int k = -423; k <= 423; k++) {
+        CHECK(log2InDouble(std::ldexp(1.0, k)) == k);
+        CHECK(exp2InDouble(static_cast<double>(k)) == std::ldexp(1.0, k));
+    }
+    CHECK(log2InDouble(0.0) == -kInf);
+    CHECK(log2InDouble(-0.0) == -kInf);
+    CHECK(log2InDouble(kInf) == kInf);
+    CHECK(std::isnan(log2InDouble(-1.0)));
+    CHECK(std::isnan(log2InDouble(-kInf)));
+    CHECK(std::isnan(log2InDouble(kNan)));
+    CHECK(exp2InDouble(kInf) == kInf);
+    CHECK(exp2InDouble(-kInf) == 0.0);
+    CHECK(exp2InDouble(1e6) == 0x1p1000);
+    CHECK(exp2InDouble(-1e6) == 0x1p-1000);
+    CHECK(std::isnan(exp2InDouble(kNan)));
+    const Lanes<double, 4> some = Lanes<double, 4>::generate([](int i) { return 0.3 + i; });
+    for (int i = 0; i < 4; i++) {
+        CHECK(log2InDouble(some)[i] == log2InDouble(some[i]));
+        CHECK(exp2InDouble(some)[i] == exp2InDouble(some[i]));
+    }
+}
+
 TEST_CASE("SinCosAndExpAreWithinTheirBounds") {
     const Computed sine = [](double a, double) { return sinOf(a); };
     const Computed cosine = [](double a, double) { return cosOf(a); };

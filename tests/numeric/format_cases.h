@@ -1,6 +1,7 @@
 // Test input for number formats: random numbers of a format, and pairs that sit where arithmetic goes wrong.
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstddef>
@@ -85,7 +86,7 @@ class FormatCases {
             case 8: {  // short significands: products and quotients are exact or ties; squares for the root
                 const int bits = random_.within(1, (p + 2) / 2);
                 const double root = static_cast<double>(random_.bits() >> (64 - bits) | 1);
-                const int even = 2 * random_.within(lo / 2, hi / 2 - p);
+                const int even = 2 * random_.within(lo / 2, std::max(lo / 2, hi / 2 - p));
                 const double b = representable(root * powerOfTwo(random_.within(-p, 2)));
                 return {neighbour(representable(root * root * powerOfTwo(even)), random_.within(-1, 1)), b};
             }

@@ -13,6 +13,7 @@
 
 #include "numeric/parallel.h"
 #include "tests/numeric/format_cases.h"
+#include "tests/numeric/mpfr_reference.h"
 
 using namespace etalon;
 using namespace etalon::test;
@@ -29,54 +30,6 @@ constexpr Format kTinyTruncateKeepSaturate{
     4, -6, 8, Rounding::towardZero, Subnormals::keep, Overflow::saturate};
 constexpr Format kOddTruncateFlushInfinity{
     13, -40, 33, Rounding::towardZero, Subnormals::flush, Overflow::infinity};
-
-// MPFR set up to compute in one format; puts the thread's exponent range back at the end.
-class Reference {
-  public:
-    explicit Reference(Format f)
-        : f_(f),
-          rounding_(f.rounding == Rounding::nearestEven ? MPFR_RNDN : MPFR_RNDZ),
-          emin_(mpfr_get_emin()),
-          emax_(mpfr_get_emax()) {
-        // MPFR's significands are in [1/2, 1), so its exponents are larger by one.
-        mpfr_set_emin(f.minExponent - f.significandBits + 2);
-        mpfr_set_emax(f.maxExponent + 1);
-        for (mpfr_ptr x : {a_, b_, r_}) mpfr_init2(x, f.significandBits);
-    }
-    ~Reference() {
-        for (mpfr_ptr x : {a_, b_, r_}) mpfr_clear(x);
-        mpfr_set_emin(emin_);
-        mpfr_set_emax(emax_);
-    }
-    Reference(const Reference&) = delete;
-    Reference& operator=(const Reference&) = delete;
-
-    void setOperands(double a, double b) {
-        mpfr_set_d(a_, a, MPFR_RNDN);
-        mpfr_set_d(b_, b, MPFR_RNDN);
-    }
-    double binary(int (*operation)(mpfr_ptr, mpfr_srcptr, mpfr_srcptr, mpfr_rnd_t)) {
-        return finish(operation(r_, a_, b_, rounding_));
-    }
-    double root() { return finish(mpfr_sqrt(r_, a_, rounding_)); }
-    double converted(double x) { return finish(mpfr_set_d(r_, x, rounding_)); }
-
-  private:
-    double finish(int ternary) {
-        mpfr_subnormalize(r_, ternary, rounding_);
-        const double r = mpfr_get_d(r_, MPFR_RNDN);
-        if (f_.overflow == Overflow::saturate && std::isnan(r)) return 0.0;
-        if (f_.overflow == Overflow::saturate && std::isinf(r)) return std::copysign(largestFinite(f_), r);
-        if (f_.subnormals == Subnormals::flush && std::abs(r) < smallestNormal(f_))
-            return std::copysign(0.0, r);
-        return r;
-    }
-
-    Format f_;
-    mpfr_rnd_t rounding_;
-    mpfr_exp_t emin_, emax_;
-    mpfr_t a_, b_, r_;
-};
 
 // The operations: `of` is what is tested, `reference` says what MPFR does instead.
 struct Sum {
@@ -132,12 +85,6 @@ struct Tally {
     size_t mismatches = 0;       // lanes against MPFR
     size_t laneDifferences = 0;  // lanes against scalar
 };
-
-bool sameBits(double a, double b) { return std::bit_cast<int64_t>(a) == std::bit_cast<int64_t>(b); }
-// MPFR has one NaN without a sign; Rounded returns one NaN.
-bool agree(double result, double expected) {
-    return std::isnan(expected) ? sameBits(result, kCanonicalNan) : sameBits(result, expected);
-}
 
 using Block = std::array<double, kBlock>;
 

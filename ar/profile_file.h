@@ -1,0 +1,36 @@
+// Profiles that a user composes in a TOML file (docs/profiles.md).
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "raster/profile.h"
+
+namespace etalon {
+
+// The names that profile files, and texts about profiles, have for what a profile may be; in the order of the
+// enumerations.
+std::span<const std::string_view> roundingNames();
+std::span<const std::string_view> subnormalNames();
+std::span<const std::string_view> overflowNames();
+std::span<const std::string_view> divisionNames();
+std::span<const std::string_view> powerNames();
+std::span<const std::string_view> rasterRealNames();
+std::span<const std::string_view> depthFormatNames();
+std::span<const std::string_view> depthRoundingNames();
+std::span<const std::string_view> filterNames();
+
+// True for what stands for a file where a profile is asked for, and not for a name: it ends in ".toml".
+bool isProfileFile(std::string_view nameOrFile);
+
+// The profile that the file composes; its name is that of the file, without folders. InputError "file:line: reason" for
+// the first thing that is wrong: TOML syntax, an unknown key, a wrong type, a value that is not known or out of range, a
+// format that cannot be emulated.
+Profile readProfileFile(const std::filesystem::path& path);
+
+// The named profile, or that of the file. InputError if there is none.
+Profile loadProfile(const std::string& nameOrFile);
+
+}  // namespace etalon
