@@ -95,6 +95,9 @@ class SurfaceLighting {
 
   private:
     static constexpr double kEightPi = 25.132741228718345;
+    // Whether operations are instructions.
+    static constexpr bool kIsNative = std::is_same_v<T, TexelStorage<T>> ||
+                                      std::is_same_v<T, Lanes<TexelStorage<T>, NumberTraits<T>::lanes>>;
 
     // What arrives at a point; of a point or spot light its position and intensity instead.
     struct Light {
@@ -124,9 +127,18 @@ class SurfaceLighting {
         return {arriving.toLight, irradiance, everyLane(isFinite(irradiance))};
     }
 
-    // Flattened, so that constants stay in registers from light to light.
-    [[gnu::flatten, gnu::noinline]] void addLights(const Request& request, std::span<const Light> lights,
-                                                   Reflected& total) {
+    void addLights(const Request& request, std::span<const Light> lights, Reflected& total) {
+        if constexpr (kIsNative)
+            addLightsFlattened(request, lights, total);
+        else
+            addEachLight(request, lights, total);
+    }
+    // Constants stay in registers from light to light.
+    [[gnu::flatten, gnu::noinline]] void addLightsFlattened(const Request& request,
+                                                            std::span<const Light> lights, Reflected& total) {
+        addEachLight(request, lights, total);
+    }
+    void addEachLight(const Request& request, std::span<const Light> lights, Reflected& total) {
         const vec3 n = request.point.normal, toEye = request.point.toEye, surface = request.surface;
         const vec3 colour = constant(request.material.specular);
         const T exponent(request.material.exponent), scale((request.material.exponent + 8.0) / kEightPi);

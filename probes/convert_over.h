@@ -52,9 +52,11 @@ class ConversionWriter {
     Point pointOf(Kernel& kernel, const typename Kernel::vec3& direction) const {
         return kernel.mappingPoint(direction, sampling_.source);
     }
-    // Texels' coordinates stay in registers: as calls, the steps of the text pass them through memory.
-    [[gnu::flatten]] Sample sampleAt(Kernel& kernel, const Point& p) const {
-        return kernel.sampleProbe(radiance_, shown_, p, sampling_);
+    Sample sampleAt(Kernel& kernel, const Point& p) const {
+        if constexpr (kIsNative)
+            return sampleFlattened(kernel, p);
+        else
+            return kernel.sampleProbe(radiance_, shown_, p, sampling_);
     }
     // Texels first ... first + active - 1 of a row, whose centres the source shows at middle().
     template <class Middle>
@@ -85,6 +87,15 @@ class ConversionWriter {
 
   private:
     static constexpr int kWidth = NumberTraits<T>::lanes;
+    // Whether operations are instructions.
+    static constexpr bool kIsNative =
+        std::is_same_v<T, TexelStorage<T>> || std::is_same_v<T, Lanes<TexelStorage<T>, kWidth>>;
+
+    // Texels' coordinates stay in registers: as calls, the steps of the text pass them through memory.
+    [[gnu::flatten]] Sample sampleFlattened(Kernel& kernel, const Point& p) const {
+        return kernel.sampleProbe(radiance_, shown_, p, sampling_);
+    }
+
     const ConversionJob& job_;
     Probe& result_;
     std::vector<ShownColumns> shownColumns_;

@@ -94,7 +94,19 @@ class ShadowLookupOf final : public ShadowLookup {
         return planes_[static_cast<size_t>(layer)].texels.data() +
                static_cast<ptrdiff_t>(y + pad_) * stride_ + (x + pad_);
     }
-    void place(const LitPoints& points, size_t first, size_t count, Places& places) const;
+    // Whether operations are instructions.
+    static constexpr bool kIsNative = std::is_same_v<T, Stored> || std::is_same_v<T, Lanes<Stored, N>>;
+    void place(const LitPoints& points, size_t first, size_t count, Places& places) const {
+        if constexpr (kIsNative)
+            placeFlattened(points, first, count, places);
+        else
+            placeEach(points, first, count, places);
+    }
+    [[gnu::flatten]] void placeFlattened(const LitPoints& points, size_t first, size_t count,
+                                         Places& places) const {
+        placeEach(points, first, count, places);
+    }
+    void placeEach(const LitPoints& points, size_t first, size_t count, Places& places) const;
     uint32_t shadowedInRow(const Stored* row, const T& depth, const T& perU, const T& perV,
                            const WindowColumns& du, const T& dv) const;
     uint32_t compareQuantised(const T& texels, const T& reference) const;
@@ -353,8 +365,7 @@ void ShadowLookupOf<T>::find(const LitPoints& points, std::span<double> visibili
 }
 
 template <class T>
-[[gnu::flatten]] void ShadowLookupOf<T>::place(const LitPoints& points, size_t first, size_t count,
-                                               Places& places) const {
+void ShadowLookupOf<T>::placeEach(const LitPoints& points, size_t first, size_t count, Places& places) const {
     K kernels;
     forEachLaneGroup<N>(count, [&](size_t offset, int active) {
         const size_t at = first + offset;
