@@ -2,6 +2,9 @@
 
 #include <unistd.h>
 
+#include <algorithm>
+#include <bit>
+
 #include "ar/environment_light.h"
 #include "ar/scene_shadows.h"
 #include "ar/surface_builder.h"
@@ -19,6 +22,12 @@ constexpr double kGiB = 1024.0 * 1024.0 * 1024.0;
 
 uint64_t machineMemory_bytes() {
     return static_cast<uint64_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<uint64_t>(sysconf(_SC_PAGESIZE));
+}
+
+// Whether the whole number n > 0 is a number of the format.
+bool holds(const Format& format, int n) {
+    const int odd = n >> std::countr_zero(static_cast<unsigned>(n));
+    return odd >> format.significandBits == 0 && n <= largestFinite(format);
 }
 
 // Runs the passes of one scene; each step fills the members that later ones read.
@@ -96,6 +105,20 @@ class SceneRenderer {
                        static_cast<double>(needed) / kGiB, static_cast<double>(present) / kGiB));
     }
 
+    // Images are sampled with their sizes as numbers of the fragment arithmetic.
+    void requireSampling(const char* what, int line, int width, int height) const {
+        if (profile_.fragment.type != NumberType::emulated) return;
+        for (const int size : {width, height})
+            if (!holds(profile_.fragment.format, size))
+                throw InputError(formatText(
+                    "{}: {} of {}x{} texels cannot be sampled in the profile {}: its format holds no {}",
+                    where(scene_, line), what, width, height, profile_.name, size));
+    }
+    bool runs(std::string_view pass) const {
+        return std::ranges::any_of(result_.plan.passes,
+                                   [&](const PlanPass& of) { return of.name == pass && of.runs; });
+    }
+
     VisibilityFacts visibilityFacts() const {
         VisibilityFacts facts;
         facts.objectVisible.assign(surfaces_.instances.size(), false);
@@ -141,6 +164,14 @@ class SceneRenderer {
     }
     void makeEnvironment() {
         readEnvironment();
+        const Image<float>& latLong = surfaces_.environment.latLong;
+        if (!latLong.empty() && (result_.plan.environmentCube || runs("background")))
+            requireSampling("an environment", scene_.environment.line, latLong.width(), latLong.height());
+        const EnvironmentLightMethod method = scene_.environment.lighting;
+        if (result_.plan.environmentLight &&
+            (method == EnvironmentLightMethod::map || method == EnvironmentLightMethod::blurred))
+            requireSampling("a map of irradiance", scene_.environment.line, scene_.environment.mapSize,
+                            scene_.environment.mapSize);
         makeEnvironmentLight();
         if (!result_.plan.environmentCube) return;
         progress("environment cube map");
@@ -156,6 +187,7 @@ class SceneRenderer {
             CubeRenderRequest request;
             request.centre = instance.cubeCentre_m;
             request.size = instance.cubeSize;
+            requireSampling("a cube map", 0, request.size, request.size);
             request.near_m = scene_.camera.near;
             request.far_m = scene_.camera.far;
             request.excluded = i;

@@ -6,7 +6,7 @@ import shutil
 import sys
 
 import cli_case
-from cli_case import CliCase
+from cli_case import CliCase, pfm
 
 SCENES = None
 NAMES = ["f32", "f64", "truth", "d3d11", "vulkan-min", "nv40-fp32", "nv40-fp16", "r300-fp24", "fp16", "bf16"]
@@ -141,9 +141,18 @@ class Profiles(CliCase):
         self.expect_error("neither one of", "render", scene, "-o", "a.exr", "--profile", "f31")
         self.assertFalse((self.folder / "a.exr").exists())
 
-    def test_the_smallest_formats_render(self):
-        self.write("tiny.toml", "[fragment]\nsignificand_bits = 2\nmin_exponent = -4\nmax_exponent = 4\n")
+    def test_the_smallest_formats_render_and_say_what_they_cannot_sample(self):
+        self.write("tiny.toml", "[fragment]\nsignificand_bits = 2\nmin_exponent = -4\nmax_exponent = 5\n")
         self.render("a.exr", "--profile", "tiny.toml")
+        for width, height, message in ((64, 32, "holds no 64"), (40, 20, "holds no 40"), (32, 16, "")):
+            (self.folder / "sky.pfm").write_bytes(pfm(width, height, [1.0] * (3 * width * height)))
+            scene = self.write("sky.toml", SCENE.format(render="") + '[environment]\nfile = "sky.pfm"\n')
+            arguments = ("render", scene, "-o", "b.exr", "--profile", "tiny.toml")
+            if message:
+                self.expect_error(f"sky.toml:32: an environment of {width}x{height} texels cannot be sampled in the "
+                                  f"profile tiny.toml: its format {message}", *arguments)
+            else:
+                self.expect(0, *arguments)
 
 
 if __name__ == "__main__":

@@ -166,6 +166,7 @@ TEST_CASE("TheTextOfAProfileIsAFileThatComposesIt") {
     own.fragment.format.rounding = Rounding::stochastic;
     own.fragment.format.seed = 12345678901234;
     own.fragment.format.power = Power::exp2log2;
+    own.depthRounding = DepthRounding::driver;
     CHECK(sameChoices(readProfileFile(written(folder, profileText(own))), own));
 }
 
