@@ -124,7 +124,7 @@ class TileShaderOf final : public TileShader {
 
 template <class T>
 TileShaderOf<T>::TileShaderOf(const ShadeJob& job)
-    : job_(job), lighting_(*job.scene, samplerOf(*job.profile)), sampler_(samplerOf(*job.profile)) {
+    : job_(job), lighting_(job.sources, samplerOf(*job.profile)), sampler_(samplerOf(*job.profile)) {
     ambient_ = constant(job.scene->ambient);
     eye_ = constant(job.view->eye);
     buckets_.push_back(Bucket{nullptr, nullptr, {}, 0});
@@ -136,7 +136,9 @@ TileShaderOf<T>::TileShaderOf(const ShadeJob& job)
     if (!job.visibility || job.vertexRadiance ||
         !(request.needs(ShadeOutput::diffuse) || request.needs(ShadeOutput::specular)))
         return;
-    for (size_t l = 0; l < job.scene->lights.size(); l++) casts_.push_back(job.visibility->casts(l));
+    const LightSources& sources = job.sources;
+    for (size_t l = 0; l < sources.lights->size(); l++)
+        casts_.push_back((!sources.shows || (*sources.shows)[l]) && job.visibility->casts(l));
     if (std::find(casts_.begin(), casts_.end(), true) == casts_.end()) casts_.clear();
 }
 
@@ -354,7 +356,7 @@ template <class T>
 void TileShaderOf<T>::shadeBackground(const Group& group) {
     put(ShadeOutput::distance, group, constant(glm::dvec3(std::numeric_limits<double>::infinity())));
     if (!job_.request.needs(ShadeOutput::background)) return;
-    const SurfaceEnvironment& environment = job_.scene->environment;
+    const SurfaceEnvironment& environment = *job_.environment;
     if (environment.latLong.empty()) {
         put(ShadeOutput::background, group, constant(environment.constant));
         put(ShadeOutput::beauty, group, constant(environment.constant));
@@ -386,13 +388,15 @@ void TileShaderOf<T>::shadeSurface(const Bucket& bucket, const Group& group) {
 template <class T>
 typename TileShaderOf<T>::Parts TileShaderOf<T>::partsOf(const SurfaceMaterial& material) const {
     const ShadeRequest& request = job_.request;
-    const bool hasDiffuse = hasDiffusePart(material);
+    const bool every = job_.everyPart;
+    const bool hasDiffuse = every ? hasDiffusePart(material) : reflectsDiffusely(material);
     Parts parts;
     parts.ambient = hasDiffuse && request.needs(ShadeOutput::ambient);
     parts.diffuse = hasDiffuse && lighting_.hasDiffuse() && request.needs(ShadeOutput::diffuse);
-    parts.specular = material.kind == MaterialKind::blinnPhong && lighting_.hasSpecular() &&
-                     request.needs(ShadeOutput::specular);
-    parts.mirror = hasMirrorPart(material) && request.needs(ShadeOutput::mirror);
+    parts.specular = (every ? hasSpecularPart(material) : reflectsSpecularly(material)) &&
+                     lighting_.hasSpecular() && request.needs(ShadeOutput::specular);
+    parts.mirror =
+        (every ? hasMirrorPart(material) : mirrors(material)) && request.needs(ShadeOutput::mirror);
     parts.distance = request[ShadeOutput::distance];
     parts.needNormal = parts.diffuse || parts.specular || parts.mirror || request[ShadeOutput::normals];
     parts.needEye = parts.specular || parts.mirror || parts.distance;
@@ -454,7 +458,7 @@ typename TileShaderOf<T>::vec3 TileShaderOf<T>::albedo(const SurfaceMaterial& ma
 
 template <class T>
 typename TileShaderOf<T>::vec3 TileShaderOf<T>::mirrorRadiance(const Bucket& bucket, vec3 n, vec3 toEye) {
-    const SurfaceEnvironment& environment = job_.scene->environment;
+    const SurfaceEnvironment& environment = *job_.environment;
     if (bucket.cube == nullptr)
         return kernels_.mul3(constant(bucket.material->reflectance), constant(environment.constant));
     vec3 direction = kernels_.mirrorDirection(n, toEye);
@@ -529,7 +533,7 @@ void TileShaderOf<T>::copyFirstSample(ShadeOutput output, const PixelRectangle& 
 
 template <class T>
 typename TileShaderOf<T>::vec3 TileShaderOf<T>::sampleEnvironment(vec3 direction) {
-    const TextureView texture(job_.scene->environment.latLong);
+    const TextureView texture(job_.environment->latLong);
     return kernels_.sampleLatLong(texture, direction,
                                   samplingOf<K>(sampler_, texture.width(), texture.height()));
 }
