@@ -93,7 +93,7 @@ CubeRender renderCubeMap(const SurfaceScene& scene, const std::vector<PlacedMesh
         ShadeJob job = shadeJobOf(visible, scene, placed, view, profile, options);
         job.environmentCube = environmentCube;
         if (request.prepare) request.prepare(job);
-        const std::unique_ptr<LightVisibility> ofFace =
+        const std::shared_ptr<const LightVisibility> ofFace =
             request.visibilityOf ? request.visibilityOf(view) : nullptr;
         job.visibility = ofFace ? ofFace.get() : request.visibility;
         TileOcclusion occlusion;
