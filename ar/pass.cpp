@@ -33,6 +33,11 @@ void PassList::truncate(size_t count) {
     std::erase_if(learn_, [&](const auto& entry) { return entry.first >= count; });
 }
 
+size_t PassList::placeOf(std::string_view name) const {
+    return static_cast<size_t>(
+        std::ranges::find_if(passes, [&](const Pass& pass) { return pass.name() == name; }) - passes.begin());
+}
+
 void PassList::decide(bool everything) {
     // From the last pass to the first: who reads each.
     std::vector<std::vector<size_t>> readers(passes.size());
@@ -48,11 +53,13 @@ void PassList::decide(bool everything) {
                 if (pass.reason.empty())
                     for (size_t k = readers[i].size(); k-- > 0;)
                         pass.reason += (pass.reason.empty() ? "read by " : ", ") + passes[readers[i][k]].name();
-                // Undecided as long as all that need it are.
+                // Undecided as long as all that need it are: then the earliest pass that they depend on may end it.
                 pass.dependsOn = text.dependsOn;
                 if (pass.dependsOn.empty() && !text.isRoot &&
-                    std::ranges::all_of(readers[i], [&](size_t r) { return !passes[r].dependsOn.empty(); }))
-                    pass.dependsOn = passes[readers[i].back()].dependsOn;
+                    std::ranges::all_of(readers[i], [&](size_t r) { return !passes[r].dependsOn.empty(); })) {
+                    const auto place = [&](size_t r) { return placeOf(passes[r].dependsOn); };
+                    pass.dependsOn = passes[std::ranges::min(readers[i], {}, place)].dependsOn;
+                }
             } else {
                 pass.reason = text.nothing.empty() ? text.unneeded : text.nothing;
             }
@@ -87,9 +94,8 @@ void PassList::run(size_t i, const std::function<void(double)>& progress) {
 }
 
 const Pass* PassList::find(std::string_view name) const {
-    for (const Pass& pass : passes)
-        if (pass.name() == name) return &pass;
-    return nullptr;
+    const size_t place = placeOf(name);
+    return place < passes.size() ? &passes[place] : nullptr;
 }
 
 uint64_t PassList::memory_bytes() const {

@@ -161,6 +161,7 @@ class PassList {
         return values;
     }
     static void sortNeeds(Pass& pass);
+    size_t placeOf(std::string_view name) const;
 
     std::vector<std::pair<size_t, std::function<void(PassList&)>>> learn_;
 };
