@@ -163,7 +163,8 @@ bool Showing::isOpen(const std::vector<bool>& marked, const Arithmetic& arithmet
 std::string Showing::whyNoOcclusion() const {
     std::vector<bool> marked(objects_.size());
     for (size_t i = 0; i < objects_.size(); i++) marked[i] = reflectsDiffusely(materials_[i]) && isVisible(i);
-    if (!facts_.geometry) return {};
+    // Where nothing is lit from everywhere, no pass asks.
+    if (!facts_.geometry || std::ranges::find(marked, true) == marked.end()) return {};
     // Bent normals are doubles, made unit at vertices: those that are not bent may differ from the normal in the
     // last place.
     const bool perVertex = scene_.render.perVertex;

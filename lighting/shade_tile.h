@@ -33,10 +33,13 @@ class TileShaderOf final : public TileShader {
     using Triangles = TileTriangles<T>;
     using Weights = typename Triangles::Weights;
 
-    // Fragments that are shaded by the same texts and constants: their numbers, ascending.
+    // Fragments that are shaded by the same texts and constants: their numbers, ascending. An instance that
+    // reflects the scene has buckets of its own, so that their order is that of the scene, whatever cube maps
+    // the job has (fragmentPoints).
     struct Bucket {
         const SurfaceMaterial* material;
         const CubeMap<float>* cube;
+        uint32_t mirror;  // the instance that reflects the scene, or kNoTriangle
         std::vector<uint32_t> fragments;
         size_t number = 0;  // Group::number of the first one
     };
@@ -72,7 +75,7 @@ class TileShaderOf final : public TileShader {
     void collect(const PixelRectangle& rectangle, bool withPoints);
     void setUpTriangles(bool withPoints);
     void setFaceNormal(size_t number, uint32_t id, const PlacedMesh& placed);
-    size_t bucketOf(const SurfaceMaterial& material, const CubeMap<float>* cube);
+    size_t bucketOf(const SurfaceMaterial& material, const CubeMap<float>* cube, uint32_t mirror);
     void sortIntoBuckets();
     Group groupOf(const Bucket& bucket, size_t first, int count) const;
     struct Parts {
@@ -127,7 +130,7 @@ TileShaderOf<T>::TileShaderOf(const ShadeJob& job)
     : job_(job), lighting_(job.sources, samplerOf(*job.profile)), sampler_(samplerOf(*job.profile)) {
     ambient_ = constant(job.scene->ambient);
     eye_ = constant(job.view->eye);
-    buckets_.push_back(Bucket{nullptr, nullptr, {}, 0});
+    buckets_.push_back(Bucket{nullptr, nullptr, kNoTriangle, {}, 0});
     hasOcclusion_ = job.occlusion || (job.vertexRadiance &&
                                       std::ranges::any_of(*job.vertexRadiance, [](const VertexRadiance& of) {
                                           return !of.sides[0].open.empty();
@@ -191,10 +194,14 @@ void TileShaderOf<T>::run(size_t number, const PixelRectangle& rectangle, Shaded
 }
 
 template <class T>
-size_t TileShaderOf<T>::bucketOf(const SurfaceMaterial& material, const CubeMap<float>* cube) {
+size_t TileShaderOf<T>::bucketOf(const SurfaceMaterial& material, const CubeMap<float>* cube,
+                                 uint32_t mirror) {
+    const auto isOf = [&](const Bucket& b) {
+        return b.material == &material && b.cube == cube && b.mirror == mirror;
+    };
     size_t b = 1;
-    while (b < buckets_.size() && !(buckets_[b].material == &material && buckets_[b].cube == cube)) b++;
-    if (b == buckets_.size()) buckets_.push_back(Bucket{&material, cube, {}, 0});
+    while (b < buckets_.size() && !isOf(buckets_[b])) b++;
+    if (b == buckets_.size()) buckets_.push_back(Bucket{&material, cube, mirror, {}, 0});
     return b;
 }
 
@@ -213,8 +220,9 @@ void TileShaderOf<T>::setUpTriangles(bool withPoints) {
         const uint32_t instance = job_.instanceOfDraw[job_.target->triangles[id].draw];
         const CubeMap<float>* cube =
             job_.sceneCubes[instance] ? job_.sceneCubes[instance] : job_.environmentCube;
-        bucketOfTriangle_[i] =
-            bucketOf(job_.scene->materials[job_.scene->instances[instance].material], cube);
+        const SurfaceInstance& object = job_.scene->instances[instance];
+        bucketOfTriangle_[i] = bucketOf(job_.scene->materials[object.material], cube,
+                                        object.reflection == Reflection::scene ? instance : kNoTriangle);
         triangles_.set(i, *job_.target, id, (*job_.placed)[instance]);
         if (withPoints) {
             setFaceNormal(i, id, (*job_.placed)[instance]);

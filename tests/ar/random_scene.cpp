@@ -88,7 +88,7 @@ class Maker {
         for (int i = 0; i < 4; i++) {
             Material material;
             material.name = formatText("m{}", i);
-            material.kind = static_cast<MaterialKind>(random_.below(3));
+            material.kind = chance(0.2) ? MaterialKind::mirror : static_cast<MaterialKind>(random_.below(3));
             if (material.kind != MaterialKind::mirror) material.diffuse = colour();
             if (material.kind == MaterialKind::blinnPhong) {
                 material.specular = colour();
@@ -108,7 +108,7 @@ class Maker {
     }
 
     void setObjects(Scene& scene) {
-        for (int i = random_.below(4); i > 0; i--) {
+        for (int i = random_.below(5); i > 0; i--) {
             MeshObject mesh;
             mesh.name = formatText("mesh{}", scene.meshes.size());
             mesh.file = folder_ / std::string(kMeshes[random_.below(std::size(kMeshes))]);
