@@ -47,7 +47,8 @@ class RenderProgressText {
             count += passes[i].runs ? 1 : 0;
             number += passes[i].runs && i <= progress.pass ? 1 : 0;
         }
-        std::string text = formatText("{} ({} of {})", printable(passes[progress.pass].name()), number, count);
+        std::string text =
+            formatText("{} ({} of {})", printable(passes[progress.pass].name()), number, count);
         if (progress.part < kLeastPart) return text;
         const double seconds = std::chrono::duration<double>(now - start_).count();
         return formatText("{}: {:.0f} %, {:.0f} s left", text, 100 * progress.part,
@@ -94,8 +95,7 @@ ExitCode runRender(const RenderVerb& verb) {
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     progress.show("writing");
     for (size_t i = 0; i < files.size(); i++) {
-        files[i]->write(
-            isPng(verb.files[i]) ? encodePng(result.toned) : encodeExr(result.frame));
+        files[i]->write(isPng(verb.files[i]) ? encodePng(result.toned) : encodeExr(result.frame));
     }
     for (const auto& file : files) file->commit();
     progress.finish();
@@ -134,7 +134,8 @@ void addRender(Verb& command) {
     verb.add("-o,--output", options->files, "Image to write: .exr (all outputs) or .png (tone mapped beauty)")
         .required()
         .repeated();
-    const Option json = verb.addFlag("--json", options->json, "Report as JSON on standard output, pass by pass");
+    const Option json =
+        verb.addFlag("--json", options->json, "Report as JSON on standard output, pass by pass");
     verb.addFlag("--timings", options->timings, "Say what time and memory each pass took").excludes(json);
     verb.addFlag("--everything", options->everything, "Run every pass, needed or not. Changes no bit");
     verb.onRun([options] { return runRender(*options); });

@@ -71,8 +71,9 @@ SurfaceLight surfaceLightOf(const ProbeLight& light) {
     return surface;
 }
 
-EnvironmentIllumination environmentIllumination(const Environment& environment, const SurfaceEnvironment& radiance,
-                                                const Profile& profile, int threads) {
+EnvironmentIllumination environmentIllumination(const Environment& environment,
+                                                const SurfaceEnvironment& radiance, const Profile& profile,
+                                                int threads) {
     const Probe probe = probeOf(radiance);
     EnvironmentIllumination illumination;
     EnvironmentLight& light = illumination.diffuse;

@@ -19,7 +19,8 @@ SurfaceLight surfaceLightOf(const ProbeLight& light);
 
 // What the environment lights surfaces with, as `environment.lighting` says. radiance: its image, or the constant,
 // and its rotation. Everything is computed in double; only the blurred map is blurred in the profile's arithmetic.
-EnvironmentIllumination environmentIllumination(const Environment& environment, const SurfaceEnvironment& radiance,
-                                                const Profile& profile, int threads);
+EnvironmentIllumination environmentIllumination(const Environment& environment,
+                                                const SurfaceEnvironment& radiance, const Profile& profile,
+                                                int threads);
 
 }  // namespace etalon

@@ -52,7 +52,8 @@ void PassList::decide(bool everything) {
                 pass.reason = text.why;
                 if (pass.reason.empty())
                     for (size_t k = readers[i].size(); k-- > 0;)
-                        pass.reason += (pass.reason.empty() ? "read by " : ", ") + passes[readers[i][k]].name();
+                        pass.reason +=
+                            (pass.reason.empty() ? "read by " : ", ") + passes[readers[i][k]].name();
                 // Undecided as long as all that need it are: then the earliest pass that they depend on may end it.
                 pass.dependsOn = text.dependsOn;
                 if (pass.dependsOn.empty() && !text.isRoot &&

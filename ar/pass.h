@@ -116,9 +116,8 @@ class PassList {
     void whenDone(const Result<T>& result, std::function<void(PassList&, const T&)> learn) {
         check(result.pass_, result.value_);
         // The value lives as long as the pass.
-        learn_.emplace_back(result.pass_, [value = result.value_.get(), learn = std::move(learn)](PassList& list) {
-            learn(list, *value);
-        });
+        learn_.emplace_back(result.pass_, [value = result.value_.get(), learn = std::move(learn)](
+                                              PassList& list) { learn(list, *value); });
     }
 
     // Drops the passes from the given one on, with what waits for them.
@@ -138,8 +137,8 @@ class PassList {
 
   private:
     void check(size_t pass, const std::shared_ptr<const void>& result) const {
-        ETALON_CHECK(pass < passes.size() && passes[pass].result == result, "result of pass {} is of another plan",
-                     pass);
+        ETALON_CHECK(pass < passes.size() && passes[pass].result == result,
+                     "result of pass {} is of another plan", pass);
     }
     template <class U>
     void collect(Pass& pass, const Result<U>& need) const {

@@ -21,7 +21,8 @@ uint64_t squared(int size) { return static_cast<uint64_t>(size) * static_cast<ui
 // Of the images that a light's shadows are looked up in, and of what they are drawn into.
 uint64_t shadowMemory(const LightShadow& shadow, bool isDirectional) {
     if (shadow.method == ShadowMethod::map)
-        return (isDirectional ? 1 : kFacesPerCube) * squared(shadow.map.size) * (kBytesPerSample + 2 * sizeof(double));
+        return (isDirectional ? 1 : kFacesPerCube) * squared(shadow.map.size) *
+               (kBytesPerSample + 2 * sizeof(double));
     if (shadow.method == ShadowMethod::planar)
         return squared(shadow.planar.resolution) * (kBytesPerSample + sizeof(uint32_t) + sizeof(float));
     return 0;
@@ -41,7 +42,8 @@ VisibilityFacts visibilityFacts(const VisibleScene& visible, size_t objects) {
 }
 
 // Which of the environment's lights cast shadows.
-std::vector<EnvironmentCaster> castersOf(const Environment& environment, const std::vector<ProbeLight>& lights) {
+std::vector<EnvironmentCaster> castersOf(const Environment& environment,
+                                         const std::vector<ProbeLight>& lights) {
     std::vector<size_t> found =
         environment.shadowShare > 0
             ? lightsOfLargestShare(lights, environment.shadowShare)
@@ -50,7 +52,8 @@ std::vector<EnvironmentCaster> castersOf(const Environment& environment, const s
     const double total = energyOf(totalEnergy(lights));
     std::vector<EnvironmentCaster> casters;
     for (const size_t i : found)
-        casters.push_back({i, lights[i].solidAngle_sr, energyOf(lights[i].energy) / total, surfaceLightOf(lights[i])});
+        casters.push_back(
+            {i, lights[i].solidAngle_sr, energyOf(lights[i].energy) / total, surfaceLightOf(lights[i])});
     return casters;
 }
 
@@ -65,8 +68,12 @@ class Planner : public std::enable_shared_from_this<Planner> {
           profile_(findProfile(options.profile.empty() ? scene.render.profile : options.profile)),
           facts_(std::move(facts)),
           showing_(scene, *profile_, facts_),
-          settings_{&scene,           cameraViewOf(scene.camera), surfaceEnvironmentOf(scene.environment),
-                    options.raster, options.strict,             options.everything} {}
+          settings_{&scene,
+                    cameraViewOf(scene.camera),
+                    surfaceEnvironmentOf(scene.environment),
+                    options.raster,
+                    options.strict,
+                    options.everything} {}
 
     void plan(PassList& list) {
         addGeometry(list);
@@ -81,7 +88,9 @@ class Planner : public std::enable_shared_from_this<Planner> {
     using Terms = std::vector<Result<ShadeTerm>>;
     using Occlusion = std::vector<Result<SurfaceOcclusion>>;
 
-    bool asked(std::string_view output) const { return std::ranges::find(outputs_, output) != outputs_.end(); }
+    bool asked(std::string_view output) const {
+        return std::ranges::find(outputs_, output) != outputs_.end();
+    }
     bool beautyAsked() const { return asked("beauty") || png_; }
     bool isShaded(std::string_view component) const { return asked(component) || beautyAsked(); }
     uint64_t pixels() const {
@@ -94,68 +103,80 @@ class Planner : public std::enable_shared_from_this<Planner> {
     PassText textOf(std::string name, std::string why, std::string nothing, std::string unneeded,
                     PassNumbers numbers = PassNumbers::none, uint64_t memory_bytes = 0) {
         const bool assumes = showing_.takeAssumption();
-        return {std::move(name),     std::move(why), std::move(nothing), std::move(unneeded),
-                assumes ? std::string(kVisibility) : "", numbers,        memory_bytes,
-                false,               false};
+        return {std::move(name),
+                std::move(why),
+                std::move(nothing),
+                std::move(unneeded),
+                assumes ? std::string(kVisibility) : "",
+                numbers,
+                memory_bytes,
+                false,
+                false};
     }
     template <class T, class Run, class... Needs>
     Result<T> add(PassList& list, PassText text, T neutral, Run run, const Needs&... needs) {
         // What runs refers to the planner's settings.
         return list.add(
             std::move(text), profile_, std::move(neutral),
-            [self = shared_from_this(), run = std::move(run)](const PassContext& context, const auto&... values) -> T {
-                return run(context, values...);
-            },
+            [self = shared_from_this(), run = std::move(run)](
+                const PassContext& context, const auto&... values) -> T { return run(context, values...); },
             needs...);
     }
 
     void addGeometry(PassList& list) {
         const size_t count = showing_.objects().size();
-        PassText text = textOf("geometry", formatText("{} objects to place", count),
-                               count == 0 ? "the scene has no meshes and no planes" : "", "", PassNumbers::vertex);
+        PassText text =
+            textOf("geometry", formatText("{} objects to place", count),
+                   count == 0 ? "the scene has no meshes and no planes" : "", "", PassNumbers::vertex);
         text.isRoot = true;
-        results_->geometry = add(list, std::move(text), Geometry{},
-                                 [this](const PassContext& context) { return placeGeometry(settings_, context); });
-        list.whenDone<Geometry>(geometry(), [self = shared_from_this()](PassList& done, const Geometry& found) {
-            self->facts_.geometry = &found;
-            done.truncate(self->geometry().pass() + 1);
-            self->addVisibility(done);
-            self->addEnvironment(done);
-            self->addRest(done);
-            done.decide(self->everything_);
+        results_->geometry = add(list, std::move(text), Geometry{}, [this](const PassContext& context) {
+            return placeGeometry(settings_, context);
         });
+        list.whenDone<Geometry>(geometry(),
+                                [self = shared_from_this()](PassList& done, const Geometry& found) {
+                                    self->facts_.geometry = &found;
+                                    done.truncate(self->geometry().pass() + 1);
+                                    self->addVisibility(done);
+                                    self->addEnvironment(done);
+                                    self->addRest(done);
+                                    done.decide(self->everything_);
+                                });
     }
     const Result<Geometry>& geometry() const { return *results_->geometry; }
 
     void addVisibility(PassList& list) {
-        PassText text = textOf("visibility", "every output is of what is visible", "", "", PassNumbers::vertexDepth,
-                               samples() * kBytesPerSample);
+        PassText text = textOf("visibility", "every output is of what is visible", "", "",
+                               PassNumbers::vertexDepth, samples() * kBytesPerSample);
         text.isRoot = true;
         results_->visibility = add(
             list, std::move(text), VisibleView{},
-            [this](const PassContext& context, const Geometry& of) { return findVisibleInView(settings_, context, of); },
+            [this](const PassContext& context, const Geometry& of) {
+                return findVisibleInView(settings_, context, of);
+            },
             geometry());
-        list.whenDone<VisibleView>(visibility(), [self = shared_from_this()](PassList& done, const VisibleView& found) {
-            self->facts_.visibility = visibilityFacts(*found.scene, self->showing_.objects().size());
-            done.truncate(self->visibility().pass() + 1);
-            self->addEnvironment(done);
-            self->addRest(done);
-            done.decide(self->everything_);
-        });
+        list.whenDone<VisibleView>(
+            visibility(), [self = shared_from_this()](PassList& done, const VisibleView& found) {
+                self->facts_.visibility = visibilityFacts(*found.scene, self->showing_.objects().size());
+                done.truncate(self->visibility().pass() + 1);
+                self->addEnvironment(done);
+                self->addRest(done);
+                done.decide(self->everything_);
+            });
     }
     const Result<VisibleView>& visibility() const { return *results_->visibility; }
 
     void addEnvironment(PassList& list) {
         const bool isFile = scene_.environment.kind == EnvironmentKind::file;
-        results_->environmentImage = add(
-            list,
-            textOf("environment image", "", isFile ? "" : "the environment is not an image",
-                   "neither the background nor a mirror shows it, and it lights nothing"),
-            EnvironmentImage{settings_.environment, {}}, [this, isFile](const PassContext&) {
-                EnvironmentImage image{settings_.environment, {}};
-                if (isFile) image.radiance.latLong = loadEnvironment(scene_, settings_.strict, image.warnings);
-                return image;
-            });
+        results_->environmentImage =
+            add(list,
+                textOf("environment image", "", isFile ? "" : "the environment is not an image",
+                       "neither the background nor a mirror shows it, and it lights nothing"),
+                EnvironmentImage{settings_.environment, {}}, [this, isFile](const PassContext&) {
+                    EnvironmentImage image{settings_.environment, {}};
+                    if (isFile)
+                        image.radiance.latLong = loadEnvironment(scene_, settings_.strict, image.warnings);
+                    return image;
+                });
         const EnvironmentLightMethod method = scene_.environment.lighting;
         illumination_ = add(
             list,
@@ -172,9 +193,11 @@ class Planner : public std::enable_shared_from_this<Planner> {
                                                settings_.raster.threads);
             },
             image());
-        if (!showing_.environmentHasLights() || scene_.environment.shadow.method == ShadowMethod::none) return;
+        if (!showing_.environmentHasLights() || scene_.environment.shadow.method == ShadowMethod::none)
+            return;
         list.whenDone<EnvironmentIllumination>(
-            *illumination_, [self = shared_from_this()](PassList& done, const EnvironmentIllumination& found) {
+            *illumination_,
+            [self = shared_from_this()](PassList& done, const EnvironmentIllumination& found) {
                 self->facts_.casters = castersOf(self->scene_.environment, found.lights);
                 done.truncate(self->illumination_->pass() + 1);
                 self->addRest(done);
@@ -214,10 +237,12 @@ class Planner : public std::enable_shared_from_this<Planner> {
         if (showing_.environmentHasLights()) why += ", and those of the environment";
         lights_ = add(
             list,
-            textOf("lights", why, shows.empty() && !showing_.environmentHasLights() ? "no lights in the scene" : "",
+            textOf("lights", why,
+                   shows.empty() && !showing_.environmentHasLights() ? "no lights in the scene" : "",
                    "neither diffuse nor specular runs"),
             SceneLights{},
-            [this, shows](const PassContext&, const std::vector<const EnvironmentIllumination*>& environment) {
+            [this, shows](const PassContext&,
+                          const std::vector<const EnvironmentIllumination*>& environment) {
                 SceneLights lights;
                 lights.addScene(scene_, shows);
                 lights.addEnvironment(only(environment).lights);
@@ -241,47 +266,52 @@ class Planner : public std::enable_shared_from_this<Planner> {
         if (environment.shadow.method == ShadowMethod::none || !showing_.environmentHasLights()) return;
         if (facts_.casters) {
             for (const EnvironmentCaster& caster : *facts_.casters)
-                addShadow(list, {LightId::Of::environment, caster.light}, caster.source, environment.shadow, false,
+                addShadow(list, {LightId::Of::environment, caster.light}, caster.source, environment.shadow,
+                          false,
                           formatText("region of {:.3g} sr, {:.3g} % of the energy; ", caster.solidAngle_sr,
                                      100 * caster.share));
             if (!facts_.casters->empty()) return;
         }
         // Those that are not known yet, or that there are none.
         const int asked = environment.shadowShare > 0 ? kMaxShadowLights : environment.shadowLights;
-        const int lights = environment.lighting == EnvironmentLightMethod::lights ? environment.lightCount
-                                                                                  : DominantLightSearch{}.maxLights;
-        PassText text = textOf("shadows of environment lights", "its lights are known once it is read",
-                               !facts_.casters               ? ""
-                               : environment.shadowShare > 0 ? "no light has so large a share of its energy"
-                                                             : "it has no lights",
-                               unneededShadow(), PassNumbers::fragment,
-                               static_cast<uint64_t>(std::min(asked, lights)) * shadowMemory(environment.shadow, true));
+        const int lights = environment.lighting == EnvironmentLightMethod::lights
+                               ? environment.lightCount
+                               : DominantLightSearch{}.maxLights;
+        PassText text =
+            textOf("shadows of environment lights", "its lights are known once it is read",
+                   !facts_.casters               ? ""
+                   : environment.shadowShare > 0 ? "no light has so large a share of its energy"
+                                                 : "it has no lights",
+                   unneededShadow(), PassNumbers::fragment,
+                   static_cast<uint64_t>(std::min(asked, lights)) * shadowMemory(environment.shadow, true));
         text.dependsOn = kEnvironmentLight;
         text.isLookedUp = true;
         shadows_.push_back(add(
-            list, std::move(text), CastShadow{}, [](const PassContext&, const SceneLights&) { return CastShadow{}; },
-            *lights_));
+            list, std::move(text), CastShadow{},
+            [](const PassContext&, const SceneLights&) { return CastShadow{}; }, *lights_));
     }
     std::string unneededShadow() const {
         return scene_.render.perVertex ? "the scene is lit per vertex" : "neither diffuse nor specular runs";
     }
-    void addShadow(PassList& list, LightId id, const SurfaceLight& source, const LightShadow& shadow, bool isBlack,
-                   const std::string& about) {
+    void addShadow(PassList& list, LightId id, const SurfaceLight& source, const LightShadow& shadow,
+                   bool isBlack, const std::string& about) {
         constexpr std::string_view kNames[] = {"", "shadow map", "shadow volumes", "planar shadows"};
         const std::optional<ShadowFit> fit = showing_.fitOf(source, shadow);
-        const std::string nothing = isBlack ? "the light is black" : showing_.whyNoShadow(source, shadow, fit);
+        const std::string nothing =
+            isBlack ? "the light is black" : showing_.whyNoShadow(source, shadow, fit);
         std::string why = "objects may stand in the light's way";
         if (fit) why = "cast by " + showing_.namesOf(fit->casters);
         if (const auto planes = showing_.planarReceivers(); planes && shadow.method == ShadowMethod::planar)
             why = "may fall on " + showing_.namesOf(*planes);
         PassText text =
-            textOf(formatText("{} of {}", kNames[static_cast<size_t>(shadow.method)], nameOf(id)), about + why,
-                   nothing.empty() ? "" : about + nothing, unneededShadow(), PassNumbers::fragment,
-                   shadowMemory(shadow, source.kind == LightKind::directional));
+            textOf(formatText("{} of {}", kNames[static_cast<size_t>(shadow.method)], nameOf(id)),
+                   about + why, nothing.empty() ? "" : about + nothing, unneededShadow(),
+                   PassNumbers::fragment, shadowMemory(shadow, source.kind == LightKind::directional));
         if (shadow.method == ShadowMethod::volume) text.numbers = PassNumbers::none;
         text.isLookedUp = true;
         const auto addOf = [&](auto run) {
-            shadows_.push_back(add(list, std::move(text), CastShadow{}, std::move(run), geometry(), *lights_));
+            shadows_.push_back(
+                add(list, std::move(text), CastShadow{}, std::move(run), geometry(), *lights_));
         };
         switch (shadow.method) {
             case ShadowMethod::none:
@@ -339,18 +369,20 @@ class Planner : public std::enable_shared_from_this<Planner> {
         cubes_.clear();
         for (uint32_t i = 0; i < showing_.objects().size(); i++) {
             if (!showing_.hasCube(i)) continue;
-            const uint64_t texels = kFacesPerCube * squared(scene_.meshes[showing_.objects()[i].index].cubeSize);
-            const bool hasOcclusion = everything_ ? scene_.render.occlusionDirections > 0
-                                                  : showing_.cubesHaveOcclusion();
+            const uint64_t texels =
+                kFacesPerCube * squared(scene_.meshes[showing_.objects()[i].index].cubeSize);
+            const bool hasOcclusion =
+                everything_ ? scene_.render.occlusionDirections > 0 : showing_.cubesHaveOcclusion();
             showing_.takeAssumption();
             const std::string nothing = showing_.whyNoCube(i);
             const Result<CubeRender> cube = add(
                 list,
-                textOf("cube map of " + showing_.objects()[i].name, "a visible mirror reflects the scene", nothing,
-                       "the mirror pass does not run", PassNumbers::fragment, texels * 4 * kBytesPerFloat),
+                textOf("cube map of " + showing_.objects()[i].name, "a visible mirror reflects the scene",
+                       nothing, "the mirror pass does not run", PassNumbers::fragment,
+                       texels * 4 * kBytesPerFloat),
                 CubeRender{},
-                [this, i, hasOcclusion](const PassContext& context, const Geometry& of, const SceneLights& lights,
-                                        const EnvironmentImage& radiance,
+                [this, i, hasOcclusion](const PassContext& context, const Geometry& of,
+                                        const SceneLights& lights, const EnvironmentImage& radiance,
                                         const std::vector<const EnvironmentIllumination*>& environment,
                                         const std::vector<const std::optional<CubeMap<float>>*>& sky,
                                         const std::vector<const CastShadow*>& shadows) {
@@ -376,10 +408,11 @@ class Planner : public std::enable_shared_from_this<Planner> {
         hasOcclusion_ = nothing.empty() || everything_;
         occlusion_.push_back(add(
             list,
-            textOf("ambient occlusion",
-                   formatText("surfaces see their surroundings from {} directions", render.occlusionDirections),
-                   nothing, "nothing that runs is lit from everywhere", PassNumbers::doubles,
-                   squared(render.occlusionMapSize) * kBytesPerSample + samples() * kBytesPerPoint),
+            textOf(
+                "ambient occlusion",
+                formatText("surfaces see their surroundings from {} directions", render.occlusionDirections),
+                nothing, "nothing that runs is lit from everywhere", PassNumbers::doubles,
+                squared(render.occlusionMapSize) * kBytesPerSample + samples() * kBytesPerPoint),
             SurfaceOcclusion{},
             [this](const PassContext& context, const Geometry& of, const VisibleView& visible) {
                 return occlusionInView(settings_, context, of, visible);
@@ -391,7 +424,8 @@ class Planner : public std::enable_shared_from_this<Planner> {
     void addVertexLighting(PassList& list) {
         vertices_.clear();
         if (!scene_.render.perVertex) return;
-        const bool hasSurroundings = showing_.environmentIsDiffuse() || !isBlack(scene_.ambient) || everything_;
+        const bool hasSurroundings =
+            showing_.environmentIsDiffuse() || !isBlack(scene_.ambient) || everything_;
         vertices_.push_back(add(
             list,
             textOf("vertex lighting", "the scene is lit per vertex", "", "neither diffuse nor specular runs",
@@ -418,15 +452,18 @@ class Planner : public std::enable_shared_from_this<Planner> {
             const PassText& text = list.passes[shadow.pass()].text;
             if (text.nothing.empty()) nothing.clear();
         }
-        for (const SceneLight& light : scene_.lights) volumes += light.shadow.method == ShadowMethod::volume ? 1 : 0;
+        for (const SceneLight& light : scene_.lights)
+            volumes += light.shadow.method == ShadowMethod::volume ? 1 : 0;
         if (scene_.environment.shadow.method == ShadowMethod::volume)
-            volumes += static_cast<uint64_t>(
-                std::min(scene_.environment.shadowShare > 0 ? kMaxShadowLights : scene_.environment.shadowLights,
-                         scene_.environment.lightCount));
+            volumes += static_cast<uint64_t>(std::min(
+                scene_.environment.shadowShare > 0 ? kMaxShadowLights : scene_.environment.shadowLights,
+                scene_.environment.lightCount));
         // The depths of the view, and a mask for each light.
         const uint64_t bytes = volumes > 0 ? samples() * (kBytesPerSample + sizeof(uint32_t) + volumes) : 0;
         viewShadows_.push_back(add(
-            list, textOf("shadows in view", "", nothing, "neither diffuse nor specular runs", PassNumbers::vertexDepth, bytes),
+            list,
+            textOf("shadows in view", "", nothing, "neither diffuse nor specular runs",
+                   PassNumbers::vertexDepth, bytes),
             ViewShadows{},
             [this](const PassContext& context, const Geometry& of, const SceneLights& lights,
                    const std::vector<const CastShadow*>& shadows) {
@@ -458,13 +495,16 @@ class Planner : public std::enable_shared_from_this<Planner> {
 
     // A term of shading. nothing: why it is black, if it is.
     template <class AddTo, class... Needs>
-    void addTerm(PassList& list, ShadeOutput output, std::string_view name, const std::string& nothing, AddTo addTo,
-                 const Needs&... needs) {
+    void addTerm(PassList& list, ShadeOutput output, std::string_view name, const std::string& nothing,
+                 AddTo addTo, const Needs&... needs) {
         const bool isOutput = asked(name), isComponent = static_cast<int>(output) < kRadianceComponents;
         const bool isWanted = isOutput || everything_;
         const Result<ShadeTerm> term = add(
             list,
-            textOf(std::string(name), isOutput ? "output asked for" : isComponent ? "part of the beauty" : "the PNG shows it",
+            textOf(std::string(name),
+                   isOutput      ? "output asked for"
+                   : isComponent ? "part of the beauty"
+                                 : "the PNG shows it",
                    nothing, isComponent ? "no output shows it" : "not an output", PassNumbers::fragment),
             ShadeTerm{},
             [output, isWanted, isComponent, addTo](const PassContext&, const auto&... values) {
@@ -475,7 +515,8 @@ class Planner : public std::enable_shared_from_this<Planner> {
                 }};
             },
             needs...);
-        const bool isShadedNow = isOutput || (isComponent && beautyAsked()) || (output == ShadeOutput::beauty && png_);
+        const bool isShadedNow =
+            isOutput || (isComponent && beautyAsked()) || (output == ShadeOutput::beauty && png_);
         if (isComponent) components_.push_back(term);
         if (isShadedNow || everything_) terms_.push_back(term);
         hasTerms_ = hasTerms_ || (isShadedNow && nothing.empty());
@@ -575,13 +616,15 @@ class Planner : public std::enable_shared_from_this<Planner> {
 
     void addFrame(PassList& list) {
         std::vector<Result<OutputChannels>> made;
-        const auto addOutput = [&](std::string_view name, OutputChannels (*make)(const VisibleView&), uint64_t floats) {
-            const Result<OutputChannels> output =
-                add(list,
-                    textOf(std::string(name), "output asked for", "", "not an output", PassNumbers::none,
-                           pixels() * floats * kBytesPerFloat),
-                    OutputChannels{name, {}},
-                    [make](const PassContext&, const VisibleView& visible) { return make(visible); }, visibility());
+        const auto addOutput = [&](std::string_view name, OutputChannels (*make)(const VisibleView&),
+                                   uint64_t floats) {
+            const Result<OutputChannels> output = add(
+                list,
+                textOf(std::string(name), "output asked for", "", "not an output", PassNumbers::none,
+                       pixels() * floats * kBytesPerFloat),
+                OutputChannels{name, {}},
+                [make](const PassContext&, const VisibleView& visible) { return make(visible); },
+                visibility());
             if (asked(name) || everything_) made.push_back(output);
         };
         addOutput("depth", depthChannels, 1);
@@ -604,7 +647,8 @@ class Planner : public std::enable_shared_from_this<Planner> {
             [this](const PassContext& context, const std::vector<const OutputChannels*>& channels,
                    const std::vector<const Shading*>& shading) {
                 static const Shading none;
-                return frameOf(settings_, context, outputs_, channels, shading.empty() ? none : *shading.front());
+                return frameOf(settings_, context, outputs_, channels,
+                               shading.empty() ? none : *shading.front());
             },
             made, isAnyShaded || everything_ ? ShadingIf{*results_->shading} : ShadingIf{});
 

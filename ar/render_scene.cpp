@@ -21,13 +21,14 @@ void requireMemory(const Scene& scene, const RenderOptions& options, const Plan&
         if (options.announceMemory) options.announceMemory(needed);
         return;
     }
-    const bool hasMaps = std::ranges::any_of(
-        plan.passes, [](const Pass& pass) { return pass.runs && pass.text.isLookedUp && pass.memory_bytes() > 0; });
+    const bool hasMaps = std::ranges::any_of(plan.passes, [](const Pass& pass) {
+        return pass.runs && pass.text.isLookedUp && pass.memory_bytes() > 0;
+    });
     throw InputError(
         formatText("{}: {}x{} pixels with {} samples{} need {:.1f} GiB, this machine has {:.1f} GiB",
-                   where(scene, scene.camera.line), scene.camera.width, scene.camera.height, scene.render.samples,
-                   hasMaps ? ", and the maps that they look up," : "", static_cast<double>(needed) / kGiB,
-                   static_cast<double>(present) / kGiB));
+                   where(scene, scene.camera.line), scene.camera.width, scene.camera.height,
+                   scene.render.samples, hasMaps ? ", and the maps that they look up," : "",
+                   static_cast<double>(needed) / kGiB, static_cast<double>(present) / kGiB));
 }
 
 // Runs the plan from its beginning up to the pass of this number, which may have grown by then.

@@ -23,8 +23,8 @@ DirectionalOptions occlusionOptions(const SceneSettings& settings) {
 
 ShadeJob viewJob(const SceneSettings& settings, const PassContext& context, const Geometry& geometry,
                  const VisibleView& visible) {
-    ShadeJob job = shadeJobOf(*visible.scene, geometry.surfaces, geometry.placed, settings.view, context.profile,
-                              settings.raster);
+    ShadeJob job = shadeJobOf(*visible.scene, geometry.surfaces, geometry.placed, settings.view,
+                              context.profile, settings.raster);
     job.environment = &settings.environment;
     job.everyPart = settings.everything;
     return job;
@@ -34,8 +34,7 @@ ShadeJob viewJob(const SceneSettings& settings, const PassContext& context, cons
 void addPlanes(Frame& frame, const Image<float>& image, const std::vector<std::string>& names) {
     for (size_t c = 0; c < names.size(); c++) {
         Image<float> plane(frame.width, frame.height);
-        if (!image.empty())
-            std::ranges::copy(image.plane(static_cast<int>(c)), plane.values().begin());
+        if (!image.empty()) std::ranges::copy(image.plane(static_cast<int>(c)), plane.values().begin());
         frame.channels.push_back({names[c], std::move(plane)});
     }
 }
@@ -98,7 +97,8 @@ Geometry placeGeometry(const SceneSettings& settings, const PassContext& context
     return geometry;
 }
 
-VisibleView findVisibleInView(const SceneSettings& settings, const PassContext& context, const Geometry& geometry) {
+VisibleView findVisibleInView(const SceneSettings& settings, const PassContext& context,
+                              const Geometry& geometry) {
     VisibleView visible;
     visible.scene.emplace(findVisible(geometry.surfaces, geometry.placed, settings.view, context.profile,
                                       settings.scene->render.samples, settings.raster));
@@ -143,9 +143,10 @@ CastShadow castByMap(const SceneSettings& settings, const PassContext& context, 
     ShadowMapSettings seeded = map;
     seeded.seed = settings.scene->render.seed;
     const auto maps = std::make_shared<ShadowMaps>(lights.lights().size());
-    maps->set(lights.numberOf(light),
-              renderShadowMap(geometry.surfaces, geometry.placed, fit, seeded, context.profile, settings.raster),
-              context.profile, settings.raster.threads);
+    maps->set(
+        lights.numberOf(light),
+        renderShadowMap(geometry.surfaces, geometry.placed, fit, seeded, context.profile, settings.raster),
+        context.profile, settings.raster.threads);
     return {maps, {}, {}};
 }
 
@@ -171,8 +172,8 @@ CastShadow castOnPlanes(const SceneSettings& settings, const PassContext& contex
 }
 
 ViewShadows shadowsOfView(const SceneSettings& settings, const PassContext& context, const Geometry& geometry,
-                          const SceneLights& lights, const std::vector<const CastShadow*>& shadows, const View& view,
-                          int samples, uint32_t excluded) {
+                          const SceneLights& lights, const std::vector<const CastShadow*>& shadows,
+                          const View& view, int samples, uint32_t excluded) {
     JointVisibility::Ways ways;
     std::vector<std::vector<uint32_t>> casters;
     for (const CastShadow* shadow : shadows) {
@@ -187,8 +188,8 @@ ViewShadows shadowsOfView(const SceneSettings& settings, const PassContext& cont
         options.samples = samples;
         options.excluded = excluded;
         options.casters = std::move(casters);
-        ways.push_back(std::make_shared<VolumeShadows>(geometry.surfaces, geometry.placed, view, context.profile,
-                                                       options, settings.raster));
+        ways.push_back(std::make_shared<VolumeShadows>(geometry.surfaces, geometry.placed, view,
+                                                       context.profile, options, settings.raster));
     }
     if (ways.empty()) return {};
     return {std::make_shared<JointVisibility>(std::move(ways))};
@@ -203,7 +204,8 @@ SurfaceOcclusion occlusionInView(const SceneSettings& settings, const PassContex
 
 std::vector<VertexRadiance> lightVertices(const SceneSettings& settings, const PassContext& context,
                                           const Geometry& geometry, const VisibleView& visible,
-                                          const SceneLights& lights, const EnvironmentIllumination& environment,
+                                          const SceneLights& lights,
+                                          const EnvironmentIllumination& environment,
                                           const SurfaceOcclusion& occlusion) {
     ShadeJob job = viewJob(settings, context, geometry, visible);
     job.sources = sourcesOf(lights, environment);
@@ -235,8 +237,8 @@ CubeRender renderObjectCube(const SceneSettings& settings, const PassContext& co
             return fragmentOcclusion(face, occlusionOptions(settings));
         };
     request.progress = context.progress;
-    return renderCubeMap(geometry.surfaces, geometry.placed, request, environmentCube ? &*environmentCube : nullptr,
-                         context.profile, settings.raster);
+    return renderCubeMap(geometry.surfaces, geometry.placed, request,
+                         environmentCube ? &*environmentCube : nullptr, context.profile, settings.raster);
 }
 
 Shading shadeView(const SceneSettings& settings, const PassContext& context, const Geometry& geometry,
@@ -251,8 +253,9 @@ Shading shadeView(const SceneSettings& settings, const PassContext& context, con
     return shading;
 }
 
-Frame frameOf(const SceneSettings& settings, const PassContext& context, const std::vector<std::string>& outputs,
-              const std::vector<const OutputChannels*>& made, const Shading& shading) {
+Frame frameOf(const SceneSettings& settings, const PassContext& context,
+              const std::vector<std::string>& outputs, const std::vector<const OutputChannels*>& made,
+              const Shading& shading) {
     Frame frame;
     frame.width = settings.view.width;
     frame.height = settings.view.height;

@@ -106,15 +106,16 @@ struct OutputChannels {
 // What every pass of a scene runs with.
 struct SceneSettings {
     const Scene* scene = nullptr;
-    View view;             // of the camera
+    View view;                       // of the camera
     SurfaceEnvironment environment;  // its rotation, and its constant radiance
-    RasterOptions raster;  // threads and tile size; change no bit
-    bool strict = false;   // questionable input is an error
-    bool everything = false;  // evaluate also what cannot show
+    RasterOptions raster;            // threads and tile size; change no bit
+    bool strict = false;             // questionable input is an error
+    bool everything = false;         // evaluate also what cannot show
 };
 
 Geometry placeGeometry(const SceneSettings& settings, const PassContext& context);
-VisibleView findVisibleInView(const SceneSettings& settings, const PassContext& context, const Geometry& geometry);
+VisibleView findVisibleInView(const SceneSettings& settings, const PassContext& context,
+                              const Geometry& geometry);
 
 // Sample 0 as it is stored, on the scale 0 (near) to 1 (far).
 OutputChannels depthChannels(const VisibleView& visible);
@@ -133,15 +134,16 @@ CastShadow castOnPlanes(const SceneSettings& settings, const PassContext& contex
                         const PlanarLightSettings& planar);
 // Together, with the volumes of one view. excluded: an instance that the view does not show, or kNoInstance.
 ViewShadows shadowsOfView(const SceneSettings& settings, const PassContext& context, const Geometry& geometry,
-                          const SceneLights& lights, const std::vector<const CastShadow*>& shadows, const View& view,
-                          int samples, uint32_t excluded);
+                          const SceneLights& lights, const std::vector<const CastShadow*>& shadows,
+                          const View& view, int samples, uint32_t excluded);
 
 SurfaceOcclusion occlusionInView(const SceneSettings& settings, const PassContext& context,
                                  const Geometry& geometry, const VisibleView& visible);
 
 std::vector<VertexRadiance> lightVertices(const SceneSettings& settings, const PassContext& context,
                                           const Geometry& geometry, const VisibleView& visible,
-                                          const SceneLights& lights, const EnvironmentIllumination& environment,
+                                          const SceneLights& lights,
+                                          const EnvironmentIllumination& environment,
                                           const SurfaceOcclusion& occlusion);
 
 // The cube map around an instance. hasOcclusion: its faces are shaded with what they see of their surroundings.
@@ -155,8 +157,9 @@ Shading shadeView(const SceneSettings& settings, const PassContext& context, con
                   const VisibleView& visible, const std::vector<const ShadeTerm*>& terms);
 
 // The outputs in the order of kOutputNames: those that are made, and of shading; what shading has not made is 0.
-Frame frameOf(const SceneSettings& settings, const PassContext& context, const std::vector<std::string>& outputs,
-              const std::vector<const OutputChannels*>& made, const Shading& shading);
+Frame frameOf(const SceneSettings& settings, const PassContext& context,
+              const std::vector<std::string>& outputs, const std::vector<const OutputChannels*>& made,
+              const Shading& shading);
 
 // The tone mapped beauty as a PNG holds it.
 Image<uint8_t> toneMapped(const SceneSettings& settings, const Shading& shading);

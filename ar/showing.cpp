@@ -44,7 +44,8 @@ bool Showing::anyVisible(const auto& has) const {
 
 bool Showing::hasCube(size_t object) const {
     const SceneObject& of = objects_[object];
-    return of.isMesh && hasMirrorPart(*of.material) && scene_.meshes[of.index].reflection == Reflection::scene;
+    return of.isMesh && hasMirrorPart(*of.material) &&
+           scene_.meshes[of.index].reflection == Reflection::scene;
 }
 bool Showing::anyCube() const {
     for (size_t i = 0; i < objects_.size(); i++)
@@ -100,8 +101,8 @@ std::string Showing::whyMissing(const auto& hasPart, const auto& reflects, std::
 }
 
 std::string Showing::whyBlack(ShadeOutput component) const {
-    const auto whyUnlit = [&](bool byEnvironment, const auto& hasPart, const auto& reflects, std::string_view what,
-                              std::string_view reflectance) -> std::string {
+    const auto whyUnlit = [&](bool byEnvironment, const auto& hasPart, const auto& reflects,
+                              std::string_view what, std::string_view reflectance) -> std::string {
         if (lights_.empty() && !byEnvironment) return "no lights in the scene";
         if (std::ranges::all_of(lights_, isBlackLight) && !byEnvironment) return "every light is black";
         const std::string missing = whyMissing(hasPart, reflects, what, reflectance);
@@ -125,8 +126,8 @@ std::string Showing::whyBlack(ShadeOutput component) const {
                 environmentHasLights(), [](const SurfaceMaterial& m) { return hasSpecularPart(m); },
                 reflectsSpecularly, "blinn_phong surface", "specular reflectance");
         case ShadeOutput::mirror: {
-            const std::string missing = whyMissing([](const SurfaceMaterial& m) { return hasMirrorPart(m); }, mirrors,
-                                                   "mirror", "reflectance");
+            const std::string missing = whyMissing([](const SurfaceMaterial& m) { return hasMirrorPart(m); },
+                                                   mirrors, "mirror", "reflectance");
             if (!missing.empty()) return missing;
             if (isDark()) return "nothing in the scene shines";
             if (environmentIsBlack() && !anyCube()) return "the environment that mirrors show is black";
@@ -186,7 +187,8 @@ bool Showing::cubesHaveOcclusion() const {
 std::vector<bool> Showing::receivers() const {
     std::vector<bool> receivers;
     for (size_t i = 0; i < objects_.size(); i++)
-        receivers.push_back((reflectsDiffusely(materials_[i]) || reflectsSpecularly(materials_[i])) && isShown(i));
+        receivers.push_back((reflectsDiffusely(materials_[i]) || reflectsSpecularly(materials_[i])) &&
+                            isShown(i));
     return receivers;
 }
 
@@ -207,7 +209,8 @@ std::optional<std::vector<uint32_t>> Showing::planarReceivers() const {
 std::string Showing::whyNoShadow(const SurfaceLight& light, const LightShadow& shadow,
                                  const std::optional<ShadowFit>& fit) const {
     const std::vector<bool> receives = receivers();
-    if (std::ranges::find(receives, true) == receives.end()) return "no surface that is visible reflects lights";
+    if (std::ranges::find(receives, true) == receives.end())
+        return "no surface that is visible reflects lights";
     bool isReached = false;
     for (size_t i = 0; i < objects_.size() && !isReached; i++) isReached = receives[i] && reaches(light, i);
     if (!isReached) return "the light is behind all that is visible";

@@ -107,7 +107,8 @@ SurfaceMesh planeMesh(const Plane& plane) {
 
 SurfaceScene buildSurfaces(const Scene& scene, std::vector<std::string>& warnings) {
     SurfaceScene surfaces;
-    for (const Material& material : scene.materials) surfaces.materials.push_back(surfaceMaterialOf(material));
+    for (const Material& material : scene.materials)
+        surfaces.materials.push_back(surfaceMaterialOf(material));
     surfaces.ambient = scene.ambient;
 
     std::map<std::filesystem::path, uint32_t> meshOfFile;

@@ -86,7 +86,8 @@ ShadedImages shade(const ShadeJob& job, ShadeStatistics* statistics) {
         const std::lock_guard lock(mutex);
         total.surfaceFragments += counts.surfaceFragments;
         total.backgroundFragments += counts.backgroundFragments;
-        if (job.progress) job.progress(static_cast<double>(++done) / static_cast<double>(tilesOf(job).count()));
+        if (job.progress)
+            job.progress(static_cast<double>(++done) / static_cast<double>(tilesOf(job).count()));
     });
     if (statistics) *statistics = total;
     return images;

@@ -69,7 +69,7 @@ struct ShadeJob {
     const View* view = nullptr;
     const RenderTarget* target = nullptr;
     const std::vector<PlacedMesh>* placed = nullptr;
-    std::vector<uint32_t> instanceOfDraw;             // for each draw of the target
+    std::vector<uint32_t> instanceOfDraw;  // for each draw of the target
     LightSources sources;
     const SurfaceEnvironment* environment = nullptr;  // what the background and mirrors of it show
     const CubeMap<float>* environmentCube = nullptr;  // null: mirrors of the environment see its constant

@@ -57,9 +57,8 @@ std::vector<PlanarVisibility::Entry> planarShadowsOf(const SurfaceLight& light, 
         const glm::dvec2 lowest = receiver->lowest_m(), highest = receiver->highest_m();
         const glm::dvec3 middle =
             receiver->frame.toWorld((lowest.x + highest.x) / 2, (lowest.y + highest.y) / 2);
-        PlanarShadow shadow =
-            planarShadow(*receiver, casters, planarLightSamples(light, own, middle), options,
-                         profile, raster);
+        PlanarShadow shadow = planarShadow(*receiver, casters, planarLightSamples(light, own, middle),
+                                           options, profile, raster);
         const auto texels = shadow.shadow.values();
         if (std::any_of(texels.begin(), texels.end(), [](float v) { return v > 0; }))
             entries.push_back({number, static_cast<uint32_t>(i), std::move(shadow)});

@@ -13,7 +13,8 @@ double length(const glm::dvec3& a) { return std::sqrt(dot(a, a)); }
 double largestOf(const glm::dvec3& a) { return std::max({std::fabs(a.x), std::fabs(a.y), std::fabs(a.z)}); }
 
 // Whether the normals of a triangle's corners, at any of its points, may turn to the light.
-bool isReached(const PlacedMesh& placed, const uint32_t* corners, const SurfaceLight& light, double rounding) {
+bool isReached(const PlacedMesh& placed, const uint32_t* corners, const SurfaceLight& light,
+               double rounding) {
     for (int i = 0; i < 3; i++) {
         const glm::dvec3& n = placed.normals[corners[i]];
         const double part = rounding * length(n);
@@ -38,7 +39,8 @@ struct Bounds {
         for (const PlacedMesh& mesh : placed)
             for (const glm::dvec3& p : mesh.positions) {
                 if (!(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z))) continue;
-                for (int k = 0; k < 3; k++) low[k] = std::min(low[k], p[k]), high[k] = std::max(high[k], p[k]);
+                for (int k = 0; k < 3; k++)
+                    low[k] = std::min(low[k], p[k]), high[k] = std::max(high[k], p[k]);
                 largest = std::max(largest, largestOf(p));
             }
     }
@@ -77,7 +79,8 @@ bool isAllOpen(std::span<const PlacedMesh> placed, std::span<const SurfaceInstan
     const double radius_m = bounds.radius();
     if (!(radius_m > 0)) return true;
     const double tolerance_m = 2 * radius_m / mapSize * kPartOfTexel;
-    if (!(std::ldexp(kRoundings, -significandBits) * std::max(bounds.largest, 2 * radius_m) < 4 * tolerance_m))
+    if (!(std::ldexp(kRoundings, -significandBits) * std::max(bounds.largest, 2 * radius_m) <
+          4 * tolerance_m))
         return false;
     const double tilt = tolerance_m / (2 * radius_m);
     for (size_t i = 0; i < placed.size(); i++) {
@@ -89,12 +92,14 @@ bool isAllOpen(std::span<const PlacedMesh> placed, std::span<const SurfaceInstan
             const double size = length(mesh.normals[v]);
             const glm::dvec3 d = mesh.normals[v] / size - normal;
             if (!(largestOf(d) <= tilt)) return false;
-            if (!(std::fabs(dot(normal, mesh.positions[v] - mesh.positions[first])) <= tolerance_m)) return false;
+            if (!(std::fabs(dot(normal, mesh.positions[v] - mesh.positions[first])) <= tolerance_m))
+                return false;
         }
         for (const PlacedMesh& other : placed)
             for (const glm::dvec3& p : other.positions) {
                 const double height_m = dot(normal, p - mesh.positions[first]);
-                if (height_m > tolerance_m || (instances[i].twoSided && height_m < -tolerance_m)) return false;
+                if (height_m > tolerance_m || (instances[i].twoSided && height_m < -tolerance_m))
+                    return false;
             }
     }
     return true;

@@ -107,8 +107,7 @@ Image<uint32_t> visibleInstances(const VisibleScene& visible) {
 
 VolumeShadows::VolumeShadows(const SurfaceScene& scene, const std::vector<PlacedMesh>& placed,
                              const View& view, const Profile& profile, const VolumeShadowOptions& options,
-                             const RasterOptions& raster)
-{
+                             const RasterOptions& raster) {
     const std::vector<SurfaceLight>& lights = options.lights ? *options.lights : scene.lights;
     lit_.resize(lights.size());
     ETALON_CHECK(!options.casters || options.casters->size() == lights.size(), "{} lights of {}",

@@ -36,7 +36,8 @@ Environment environmentOf(EnvironmentLightMethod lighting) {
     return environment;
 }
 
-void addEnvironmentLight(const Environment& environment, const Profile& profile, int threads, SurfaceScene& scene) {
+void addEnvironmentLight(const Environment& environment, const Profile& profile, int threads,
+                         SurfaceScene& scene) {
     EnvironmentIllumination illumination =
         environmentIllumination(environment, scene.environment, profile, threads);
     for (const ProbeLight& light : illumination.lights) scene.lights.push_back(surfaceLightOf(light));

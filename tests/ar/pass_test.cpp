@@ -39,7 +39,9 @@ TEST_CASE("PassesReadWhatTheirNeedsYield") {
     const auto three = list.add(textOf("three"), profile(), 0, [](const PassContext&) { return 3; });
     const auto sum = list.add(
         textOf("sum", true), profile(), 0,
-        [](const PassContext&, int a, const std::vector<const int*>& all) { return 100 * a + *all[0] + *all[1]; },
+        [](const PassContext&, int a, const std::vector<const int*>& all) {
+            return 100 * a + *all[0] + *all[1];
+        },
         two, std::vector{two, three});
     CHECK(list.passes[sum.pass()].needs == std::vector<size_t>{0, 1});
     list.decide(false);
@@ -59,7 +61,8 @@ TEST_CASE("WhatNothingNeedsOrWhatShowsNothingYieldsItsNeutralValue") {
             textOf("skipped", false, "it shows nothing"), profile(), 20,
             [](const PassContext&, int value) { return value; }, deep);
         const auto root = list.add(
-            textOf("root", true), profile(), 0, [](const PassContext&, int a, int b) { return a + b; }, black, skipped);
+            textOf("root", true), profile(), 0, [](const PassContext&, int a, int b) { return a + b; }, black,
+            skipped);
         list.decide(everything);
         runAll(list);
         CHECK(list.value(root) == (everything ? 10 : 27));

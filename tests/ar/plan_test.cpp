@@ -88,7 +88,9 @@ PlanFacts seeing(std::vector<bool> objects, bool background = true) {
     facts.visibility = VisibilityFacts{std::move(objects), background};
     return facts;
 }
-PlanFacts seeingAll(const Scene& scene) { return seeing(std::vector<bool>(sceneObjects(scene).size(), true)); }
+PlanFacts seeingAll(const Scene& scene) {
+    return seeing(std::vector<bool>(sceneObjects(scene).size(), true));
+}
 
 bool needs(const Plan& plan, std::string_view pass, std::string_view need) {
     return std::ranges::count(namesOfNeeds(plan, *plan.find(pass)), need) == 1;
@@ -182,9 +184,12 @@ TEST_CASE("WhatIsBlackDoesNotRun") {
          "diffuse", "the diffuse reflectance of each diffuse surface is 0"},
         {[](Scene& s) { s.materials[1].specular = glm::dvec3(0); }, "specular",
          "the specular reflectance of each blinn_phong surface is 0"},
-        {[](Scene& s) { s.materials[2].reflectance = glm::dvec3(0); }, "mirror", "the reflectance of each mirror is 0"},
-        {[](Scene& s) { s.materials[2].reflectance = glm::dvec3(0); }, "cube map of ball", "its mirror is black"},
-        {[](Scene& s) { s.environment.kind = EnvironmentKind::constant; }, "background", "the environment is black"},
+        {[](Scene& s) { s.materials[2].reflectance = glm::dvec3(0); }, "mirror",
+         "the reflectance of each mirror is 0"},
+        {[](Scene& s) { s.materials[2].reflectance = glm::dvec3(0); }, "cube map of ball",
+         "its mirror is black"},
+        {[](Scene& s) { s.environment.kind = EnvironmentKind::constant; }, "background",
+         "the environment is black"},
         {[](Scene& s) {
              s.environment.kind = EnvironmentKind::constant;
              s.environment.lighting = EnvironmentLightMethod::exact;
@@ -235,8 +240,8 @@ TEST_CASE("WhatIsBlackDoesNotRun") {
 TEST_CASE("HiddenObjectsNeedNoPasses") {
     const Scene scene = fullScene();
     const Plan plan = makePlan(scene, {}, seeing({true, false, false, false}, false));
-    CHECK(running(plan) == std::set<std::string>{"geometry", "visibility", "lights", "ambient", "diffuse", "beauty",
-                                                 "shading", "frame"});
+    CHECK(running(plan) == std::set<std::string>{"geometry", "visibility", "lights", "ambient", "diffuse",
+                                                 "beauty", "shading", "frame"});
     CHECK(passOf(plan, "mirror").reason == "no mirror is visible");
     CHECK(passOf(plan, "background").reason == "objects cover every pixel");
     CHECK(passOf(plan, "cube map of ball").reason == "its mirror is not visible");
@@ -245,7 +250,8 @@ TEST_CASE("HiddenObjectsNeedNoPasses") {
     CHECK(passOf(plate, "mirror").runs);
     CHECK_FALSE(passOf(plate, "cube map of ball").runs);
     // A mirror that only a cube map sees still needs the environment.
-    CHECK(passOf(makePlan(scene, {}, seeing({true, false, true, false}, false)), "environment cube map").runs);
+    CHECK(
+        passOf(makePlan(scene, {}, seeing({true, false, true, false}, false)), "environment cube map").runs);
     // So does the background that only a cube map sees.
     Scene noPlate = fullScene();
     noPlate.meshes.resize(3);
@@ -275,8 +281,8 @@ TEST_CASE("APngNeedsTheBeautyWhateverTheOutputsAre") {
 TEST_CASE("BeforeVisibilityThePlanSaysWhatDependsOnIt") {
     const Scene scene = fullScene();
     const Plan first = makePlan(scene, {});
-    for (const char* name : {"ambient", "diffuse", "mirror", "background", "beauty", "shading", "cube map of ball",
-                             "environment image", "environment cube map"})
+    for (const char* name : {"ambient", "diffuse", "mirror", "background", "beauty", "shading",
+                             "cube map of ball", "environment image", "environment cube map"})
         CHECK_MESSAGE(passOf(first, name).dependsOn == "visibility", name);
     for (const char* name : {"geometry", "visibility", "frame", "normals"})
         CHECK_MESSAGE(passOf(first, name).dependsOn.empty(), name);
@@ -307,7 +313,8 @@ TEST_CASE("ShadowsRunForLightsThatNeedThem") {
     scene.lights[0].shadow.method = ShadowMethod::map;
     scene.lights[2].shadow.method = ShadowMethod::volume;
     scene.lights[3].shadow.method = ShadowMethod::planar;
-    const char* const kShadows[] = {"shadow map of light0", "shadow volumes of light2", "planar shadows of light3"};
+    const char* const kShadows[] = {"shadow map of light0", "shadow volumes of light2",
+                                    "planar shadows of light3"};
     // Without geometry anything may cast.
     const Plan first = makePlan(scene, {});
     CHECK(first.find("shadow map of light1") == nullptr);
@@ -419,7 +426,8 @@ TEST_CASE("EveryPassHasAReasonAndReadsPassesThatRun") {
         const auto json = nlohmann::json::parse(planJson(plan));
         REQUIRE(json["passes"].size() == plan.passes.size());
         for (const auto& pass : json["passes"])
-            for (const char* key : {"name", "runs", "reason", "depends_on", "needs", "arithmetic", "memory_bytes", "seconds"})
+            for (const char* key :
+                 {"name", "runs", "reason", "depends_on", "needs", "arithmetic", "memory_bytes", "seconds"})
                 CHECK_MESSAGE(pass.contains(key), key);
         CHECK(json["passes"][0]["arithmetic"] == "fp32");
         CHECK(json["passes"][0]["seconds"].is_null());

@@ -24,7 +24,8 @@ constexpr std::string_view kCube =
     "f 1//5 5//5 8//5\nf 1//5 8//5 4//5\nf 2//6 3//6 7//6\nf 2//6 7//6 6//6\n";
 constexpr std::string_view kSheet = "v -1 0 1\nv 1 0 1\nv 1 0 -1\nv -1 0 -1\nf 1 2 3\nf 1 3 4\n";
 constexpr std::string_view kTiltedNormals =
-    "v -1 0 1\nv 1 0 1\nv 1 0 -1\nv -1 0 -1\nvn 0 1 0\nvn 0.6 0.8 0\nvn -0.6 -0.8 0\nf 1//1 2//2 3//1\nf 1//1 3//3 "
+    "v -1 0 1\nv 1 0 1\nv 1 0 -1\nv -1 0 -1\nvn 0 1 0\nvn 0.6 0.8 0\nvn -0.6 -0.8 0\nf 1//1 2//2 3//1\nf "
+    "1//1 3//3 "
     "4//2\n";
 
 class Maker {
@@ -79,9 +80,9 @@ class Maker {
         const double around_deg = random_.uniform(-180, 180);
         const double down_deg = random_.uniform(-60, 10);
         const double distance_m = random_.uniform(2, 5);
-        camera.cameraToWorld = multiplied(
-            rotationAboutAxis({0, 1, 0}, around_deg),
-            multiplied(rotationAboutAxis({1, 0, 0}, down_deg), translation({0, 0, distance_m})));
+        camera.cameraToWorld =
+            multiplied(rotationAboutAxis({0, 1, 0}, around_deg),
+                       multiplied(rotationAboutAxis({1, 0, 0}, down_deg), translation({0, 0, distance_m})));
     }
 
     void setMaterials(Scene& scene) {
@@ -123,7 +124,8 @@ class Maker {
                                multiplied(rotationAboutAxis(axis, turn_deg), scaling({x, size, size}))));
             }
             mesh.twoSided = chance(0.6);
-            if (hasMirrorPart(scene.materials[mesh.material]) && chance(0.6)) mesh.reflection = Reflection::scene;
+            if (hasMirrorPart(scene.materials[mesh.material]) && chance(0.6))
+                mesh.reflection = Reflection::scene;
             mesh.cubeSize = 3 + random_.below(5);
             scene.meshes.push_back(mesh);
         }
@@ -196,7 +198,8 @@ class Maker {
         const double part = random_.uniform(0, 1);
         for (const std::string_view name : kOutputNames)
             if (chance(part)) output.images.emplace_back(name);
-        if (output.images.empty()) output.images = {std::string(kOutputNames[random_.below(kOutputNames.size())])};
+        if (output.images.empty())
+            output.images = {std::string(kOutputNames[random_.below(kOutputNames.size())])};
         output.toneMap = kToneMapNames[random_.below(3)];
     }
 
@@ -229,7 +232,8 @@ RandomScenes::RandomScenes() {
         sky.height = 4;
         for (const char* name : {"R", "G", "B"}) {
             Image<float> plane(8, 4);
-            for (float& value : plane.values()) value = isBlack ? 0 : static_cast<float>(random.uniform(0, 1));
+            for (float& value : plane.values())
+                value = isBlack ? 0 : static_cast<float>(random.uniform(0, 1));
             plane.at(5, 1) = isBlack ? 0 : 20;
             sky.channels.push_back({name, plane});
         }
@@ -243,16 +247,19 @@ std::string sceneText(const Scene& scene) {
     std::string text = formatText(
         "profile {}, {} samples, {}, occlusion {} of {}, environment {} lights {} shadow {}; outputs",
         scene.render.profile, scene.render.samples, scene.render.perVertex ? "per vertex" : "per pixel",
-        scene.render.occlusionDirections, scene.render.occlusionMapSize, static_cast<int>(scene.environment.kind),
+        scene.render.occlusionDirections, scene.render.occlusionMapSize,
+        static_cast<int>(scene.environment.kind),
         kEnvironmentLightMethods[static_cast<size_t>(scene.environment.lighting)],
         static_cast<int>(scene.environment.shadow.method));
     for (const std::string& output : scene.output.images) text += " " + output;
     for (const MeshObject& mesh : scene.meshes)
         text += formatText("; {} {} m{} {}{}", mesh.name, mesh.file.stem().string(), mesh.material,
-                           mesh.twoSided ? "both" : "front", mesh.reflection == Reflection::scene ? " scene" : "");
+                           mesh.twoSided ? "both" : "front",
+                           mesh.reflection == Reflection::scene ? " scene" : "");
     for (const Plane& plane : scene.planes) text += formatText("; {} m{}", plane.name, plane.material);
     for (const SceneLight& light : scene.lights)
-        text += formatText("; light {} shadow {}", static_cast<int>(light.kind), static_cast<int>(light.shadow.method));
+        text += formatText("; light {} shadow {}", static_cast<int>(light.kind),
+                           static_cast<int>(light.shadow.method));
     return text;
 }
 

@@ -254,7 +254,9 @@ TEST_CASE("OcclusionDoesNotRunWhereNothingCanOcclude") {
     Scene scene = loadScene("golden/scenes/environment_occlusion.toml");
     scene.meshes.clear();
     scene.environment.kind = EnvironmentKind::none;
-    const auto occlusionOf = [](const Scene& of) { return *renderScene(of, {}).plan.find("ambient occlusion"); };
+    const auto occlusionOf = [](const Scene& of) {
+        return *renderScene(of, {}).plan.find("ambient occlusion");
+    };
     CHECK_FALSE(occlusionOf(scene).runs);
     CHECK(occlusionOf(scene).reason == "nothing can occlude what is visible");
     CHECK(planScene(scene, {}).find("ambient occlusion")->reason == "nothing can occlude what is visible");
@@ -298,7 +300,8 @@ TEST_CASE("ShadowsDoNotDependOnTheOutputs") {
     scene.output.images = {"diffuse", "mirror", "beauty"};
     const Frame many = frameOf(scene);
     for (const Channel& channel : alone.channels)
-        CHECK(std::get<Image<float>>(many.find(channel.name)->values) == std::get<Image<float>>(channel.values));
+        CHECK(std::get<Image<float>>(many.find(channel.name)->values) ==
+              std::get<Image<float>>(channel.values));
 }
 
 // Two mirrors that show the scene: each shows the environment in the other, which a white one makes white.

@@ -87,7 +87,8 @@ TEST_CASE("OnlyFlatThingsWithNothingInFrontOfThemAreAllOpen") {
     CHECK_FALSE(cellar.isOpen());
     CHECK(isAllOpen(cellar.placed, cellar.scene.instances, {true, false}, 64, kFloatBits));
     const Placed seenFromBelow({kFloor, below}, true);
-    CHECK_FALSE(isAllOpen(seenFromBelow.placed, seenFromBelow.scene.instances, {true, false}, 64, kFloatBits));
+    CHECK_FALSE(
+        isAllOpen(seenFromBelow.placed, seenFromBelow.scene.instances, {true, false}, 64, kFloatBits));
     SurfaceMesh tilted = kFloor;
     tilted.normals[1] = {3.f, 4.f, 0};
     CHECK_FALSE(Placed({tilted}).isOpen());
