@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <cstdio>
 #include <system_error>
 
@@ -19,20 +20,40 @@ void printOut(const std::string& text) {
             formatText("standard output: cannot write: {}", std::generic_category().message(errno)));
 }
 
-ProgressLine::ProgressLine() : terminal_(isatty(STDERR_FILENO) != 0) {}
+ProgressLine::ProgressLine() {
+    if (isatty(STDERR_FILENO) != 0) writer_ = std::thread([this] { write(); });
+}
 
 void ProgressLine::show(const std::string& text) {
-    if (!terminal_) return;
-    finish();
-    printText(stderr, "{}", text);
+    if (!writer_.joinable()) return;
+    const std::lock_guard lock(mutex_);
+    text_ = text;
+}
+
+void ProgressLine::write() {
+    constexpr std::chrono::milliseconds kFirst{1000}, kNext{200};
+    std::unique_lock lock(mutex_);
+    auto pause = kFirst;
+    while (!changed_.wait_for(lock, pause, [this] { return finished_; })) {
+        pause = kNext;
+        if (text_ == written_) continue;
+        // Back to the first column, erase to the end of the line [ECMA-48].
+        printText(stderr, "\r\x1b[K{}", text_);
+        std::fflush(stderr);
+        written_ = text_;
+    }
+    if (!written_.empty()) printText(stderr, "\r\x1b[K");
     std::fflush(stderr);
-    shown_ = true;
 }
 
 void ProgressLine::finish() {
-    // Back to the first column, erase to the end of the line [ECMA-48].
-    if (shown_) printText(stderr, "\r\x1b[K");
-    shown_ = false;
+    if (!writer_.joinable()) return;
+    {
+        const std::lock_guard lock(mutex_);
+        finished_ = true;
+    }
+    changed_.notify_one();
+    writer_.join();
 }
 
 }  // namespace etalon

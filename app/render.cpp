@@ -11,7 +11,7 @@
 #include "ar/image_io.h"
 #include "ar/json.h"
 #include "ar/scene_loader.h"
-#include "lighting/tone_map.h"
+#include "ar/toml_reader.h"
 #include "numeric/text.h"
 
 namespace etalon {
@@ -23,7 +23,7 @@ constexpr uint64_t kAnnouncedMemory_bytes = uint64_t{1} << 30;
 struct RenderVerb {
     SceneOptions scene;
     std::vector<std::string> files;
-    bool json = false;
+    bool json = false, timings = false, everything = false;
 };
 
 bool isPng(const std::filesystem::path& file) { return file.extension() == ".png"; }
@@ -34,10 +34,40 @@ void requireKnownExtension(const std::filesystem::path& file) {
                                     file.extension().string()));
 }
 
-ToneMap toneMapOf(std::string_view name) {
-    if (name == "reinhard") return ToneMap::reinhard;
-    if (name == "filmic") return ToneMap::filmic;
-    return ToneMap::linear;
+// "shading (12 of 15): 40 %, 3 s left": the time left of the pass, once enough of it is done to tell.
+class RenderProgressText {
+  public:
+    std::string of(const RenderProgress& progress) {
+        constexpr double kLeastPart = 0.02;
+        const auto now = std::chrono::steady_clock::now();
+        if (progress.pass != pass_ || progress.part == 0) pass_ = progress.pass, start_ = now;
+        const auto& passes = progress.plan->passes;
+        size_t number = 0, count = 0;
+        for (size_t i = 0; i < passes.size(); i++) {
+            count += passes[i].runs ? 1 : 0;
+            number += passes[i].runs && i <= progress.pass ? 1 : 0;
+        }
+        std::string text =
+            formatText("{} ({} of {})", printable(passes[progress.pass].name()), number, count);
+        if (progress.part < kLeastPart) return text;
+        const double seconds = std::chrono::duration<double>(now - start_).count();
+        return formatText("{}: {:.0f} %, {:.0f} s left", text, 100 * progress.part,
+                          seconds * (1 - progress.part) / progress.part);
+    }
+
+  private:
+    size_t pass_ = SIZE_MAX;
+    std::chrono::steady_clock::time_point start_;
+};
+
+// A line for each pass that ran: its time, its memory, its name.
+std::string timingsText(const Plan& plan) {
+    std::string text;
+    for (const Pass& pass : plan.passes)
+        if (pass.runs)
+            text += formatText("{:9.3f} s {:9.1f} MiB  {}\n", pass.seconds,
+                               static_cast<double>(pass.memory_bytes()) / (1 << 20), printable(pass.name()));
+    return text;
 }
 
 ExitCode runRender(const RenderVerb& verb) {
@@ -51,8 +81,10 @@ ExitCode runRender(const RenderVerb& verb) {
         options.request.png = options.request.png || isPng(file);
         files.push_back(std::make_unique<AtomicFile>(file));
     }
+    options.everything = verb.everything;
     ProgressLine progress;
-    options.progress = [&](const std::string& pass) { progress.show(pass); };
+    RenderProgressText progressText;
+    options.progress = [&](const RenderProgress& at) { progress.show(progressText.of(at)); };
     options.announceMemory = [](uint64_t bytes) {
         if (bytes >= kAnnouncedMemory_bytes)
             printText(stderr, "etalon: needs up to {:.1f} GiB for targets and images\n",
@@ -63,19 +95,13 @@ ExitCode runRender(const RenderVerb& verb) {
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     progress.show("writing");
     for (size_t i = 0; i < files.size(); i++) {
-        files[i]->write(
-            isPng(verb.files[i])
-                ? encodePng(toneMap(result.beauty, toneMapOf(scene.output.toneMap), scene.output.exposure))
-                : encodeExr(result.frame));
+        files[i]->write(isPng(verb.files[i]) ? encodePng(result.toned) : encodeExr(result.frame));
     }
     for (const auto& file : files) file->commit();
     progress.finish();
 
     for (const std::string& warning : result.warnings) printText(stderr, "etalon: warning: {}\n", warning);
     if (verb.json) {
-        Json passes = Json::list();
-        for (const PlanPass& pass : result.plan.passes)
-            if (pass.runs) passes.append(pass.name);
         printOut(jsonText({{"files", verb.files},
                            {"width", result.frame.width},
                            {"height", result.frame.height},
@@ -85,13 +111,15 @@ ExitCode runRender(const RenderVerb& verb) {
                            {"clipped", result.raster.clipped},
                            {"surfaceFragments", result.shading.surfaceFragments},
                            {"backgroundFragments", result.shading.backgroundFragments},
-                           {"passes", passes},
+                           {"memory_bytes", result.plan.memory_bytes()},
+                           {"passes", planPassesJson(result.plan)},
                            {"warnings", result.warnings}}));
     } else {
         std::string text;
         for (const std::string& file : verb.files)
             text +=
                 formatText("{}: {}x{} in {:.2f} s\n", file, result.frame.width, result.frame.height, seconds);
+        if (verb.timings) text += timingsText(result.plan);
         printOut(text);
     }
     return ExitCode::done;
@@ -106,7 +134,10 @@ void addRender(Verb& command) {
     verb.add("-o,--output", options->files, "Image to write: .exr (all outputs) or .png (tone mapped beauty)")
         .required()
         .repeated();
-    verb.addFlag("--json", options->json, "Report as JSON on standard output");
+    const Option json =
+        verb.addFlag("--json", options->json, "Report as JSON on standard output, pass by pass");
+    verb.addFlag("--timings", options->timings, "Say what time and memory each pass took").excludes(json);
+    verb.addFlag("--everything", options->everything, "Run every pass, needed or not. Changes no bit");
     verb.onRun([options] { return runRender(*options); });
 }
 

@@ -1,7 +1,6 @@
 #include "ar/environment_light.h"
 
 #include <cmath>
-#include <span>
 
 #include "probes/convert.h"
 #include "probes/dominant_lights.h"
@@ -35,15 +34,6 @@ Probe probeOf(const SurfaceEnvironment& environment) {
     return probe;
 }
 
-void addLights(std::span<const ProbeLight> lights, SurfaceScene& surfaces) {
-    for (const ProbeLight& light : lights) {
-        SurfaceLight surface;
-        surface.toLight = light.direction;
-        surface.irradiance = light.energy;
-        surfaces.lights.push_back(surface);
-    }
-}
-
 CubeMap<float> facesOf(Probe probe, double factor) {
     CubeMap<float> cube;
     for (size_t f = 0; f < cube.faces.size(); f++) {
@@ -74,12 +64,21 @@ void setTexels(const Probe& probe, EnvironmentLight& light) {
 
 }  // namespace
 
-std::vector<ProbeLight> addEnvironmentLight(const Environment& environment, const Profile& profile,
-                                            int threads, SurfaceScene& surfaces) {
-    const Probe probe = probeOf(surfaces.environment);
-    EnvironmentLight& light = surfaces.environment.light;
+SurfaceLight surfaceLightOf(const ProbeLight& light) {
+    SurfaceLight surface;
+    surface.toLight = light.direction;
+    surface.irradiance = light.energy;
+    return surface;
+}
+
+EnvironmentIllumination environmentIllumination(const Environment& environment,
+                                                const SurfaceEnvironment& radiance, const Profile& profile,
+                                                int threads) {
+    const Probe probe = probeOf(radiance);
+    EnvironmentIllumination illumination;
+    EnvironmentLight& light = illumination.diffuse;
+    std::vector<ProbeLight>& lights = illumination.lights;
     const ProbeShape cube{Mapping::cube, environment.mapSize, environment.mapSize};
-    std::vector<ProbeLight> lights;
     switch (environment.lighting) {
         case EnvironmentLightMethod::none:
             break;
@@ -118,8 +117,7 @@ std::vector<ProbeLight> addEnvironmentLight(const Environment& environment, cons
             break;
         }
     }
-    addLights(lights, surfaces);
-    return lights;
+    return illumination;
 }
 
 }  // namespace etalon

@@ -8,12 +8,19 @@
 
 namespace etalon {
 
-// Adds to the surfaces what the environment lights them with, as `environment.lighting` says: lights behind
-// those of the scene (median cut, or the dominant ones), or the light of surfaces.environment.
-// `surfaces.environment` holds the image, or the constant radiance, and its rotation. Everything is computed
-// in double; only the blurred map is blurred in the profile's arithmetic. Returns the lights that were added,
-// in their order; black ones are left out.
-std::vector<ProbeLight> addEnvironmentLight(const Environment& environment, const Profile& profile,
-                                            int threads, SurfaceScene& surfaces);
+// Directional lights (median cut, or the dominant ones), or what reaches diffuse surfaces from everywhere.
+struct EnvironmentIllumination {
+    std::vector<ProbeLight> lights;  // black ones are left out
+    EnvironmentLight diffuse;
+};
+
+// The light as which a light of a probe shines on surfaces.
+SurfaceLight surfaceLightOf(const ProbeLight& light);
+
+// What the environment lights surfaces with, as `environment.lighting` says. radiance: its image, or the constant,
+// and its rotation. Everything is computed in double; only the blurred map is blurred in the profile's arithmetic.
+EnvironmentIllumination environmentIllumination(const Environment& environment,
+                                                const SurfaceEnvironment& radiance, const Profile& profile,
+                                                int threads);
 
 }  // namespace etalon

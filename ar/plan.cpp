@@ -1,430 +1,732 @@
 #include "ar/plan.h"
 
 #include <algorithm>
+#include <bit>
 
-#include "probes/dominant_lights.h"
+#include "ar/showing.h"
+#include "ar/surface_builder.h"
 #include "numeric/text.h"
+#include "probes/dominant_lights.h"
+#include "shadows/casting_lights.h"
 
 namespace etalon {
 namespace {
 
-constexpr std::string_view kComponentNames[kRadianceComponents] = {"ambient", "diffuse", "specular", "mirror",
-                                                                   "background"};
+constexpr std::string_view kVisibility = "visibility", kEnvironmentLight = "environment light";
 constexpr int kFacesPerCube = 6;
+constexpr uint64_t kBytesPerSample = 4 + 4 + 1;  // depth, id, stencil
+constexpr uint64_t kBytesPerFloat = 4;
 
-bool isFinitePositive(const glm::dvec3& v) { return v.x > 0 || v.y > 0 || v.z > 0; }
+uint64_t squared(int size) { return static_cast<uint64_t>(size) * static_cast<uint64_t>(size); }
 
-// Collects the passes; every decision is made here, once, with its reason.
-class Planner {
+// Of the images that a light's shadows are looked up in, and of what they are drawn into.
+uint64_t shadowMemory(const LightShadow& shadow, bool isDirectional) {
+    if (shadow.method == ShadowMethod::map)
+        return (isDirectional ? 1 : kFacesPerCube) * squared(shadow.map.size) *
+               (kBytesPerSample + 2 * sizeof(double));
+    if (shadow.method == ShadowMethod::planar)
+        return squared(shadow.planar.resolution) * (kBytesPerSample + sizeof(uint32_t) + sizeof(float));
+    return 0;
+}
+
+VisibilityFacts visibilityFacts(const VisibleScene& visible, size_t objects) {
+    VisibilityFacts facts;
+    facts.objectVisible.assign(objects, false);
+    facts.backgroundVisible = false;
+    for (const uint32_t id : visible.target.id.values()) {
+        if (id == kNoTriangle)
+            facts.backgroundVisible = true;
+        else
+            facts.objectVisible[visible.instanceOfDraw[visible.target.triangles[id].draw]] = true;
+    }
+    return facts;
+}
+
+// Which of the environment's lights cast shadows.
+std::vector<EnvironmentCaster> castersOf(const Environment& environment,
+                                         const std::vector<ProbeLight>& lights) {
+    std::vector<size_t> found =
+        environment.shadowShare > 0
+            ? lightsOfLargestShare(lights, environment.shadowShare)
+            : lightsOfSmallestRegion(lights, static_cast<size_t>(environment.shadowLights));
+    found.resize(std::min(found.size(), size_t{kMaxShadowLights}));
+    const double total = energyOf(totalEnergy(lights));
+    std::vector<EnvironmentCaster> casters;
+    for (const size_t i : found)
+        casters.push_back(
+            {i, lights[i].solidAngle_sr, energyOf(lights[i].energy) / total, surfaceLightOf(lights[i])});
+    return casters;
+}
+
+// Whether the whole number n > 0 is a number of the format.
+bool holds(const Format& format, int n) {
+    const int odd = n >> std::countr_zero(static_cast<unsigned>(n));
+    return odd >> format.significandBits == 0 && n <= largestFinite(format);
+}
+
+// Makes the passes, and makes those behind a pass again that has found something out. What runs refers to it.
+class Planner : public std::enable_shared_from_this<Planner> {
   public:
-    Planner(const Scene& scene, const PlanRequest& request, const VisibilityFacts* facts)
-        : scene_(scene), facts_(facts), objects_(planObjects(scene)) {
-        outputs_ = request.outputs.empty() ? scene.output.images : request.outputs;
-        plan_.toneMap = request.png;
-    }
+    Planner(const Scene& scene, const RenderOptions& options, PlanFacts facts)
+        : scene_(scene),
+          outputs_(options.request.outputs.empty() ? scene.output.images : options.request.outputs),
+          png_(options.request.png),
+          everything_(options.everything),
+          profile_(
+              std::make_shared<const Profile>(options.profile ? *options.profile : scene.render.profile)),
+          facts_(std::move(facts)),
+          showing_(scene, *profile_, facts_),
+          settings_{&scene,
+                    cameraViewOf(scene.camera),
+                    surfaceEnvironmentOf(scene.environment),
+                    options.raster,
+                    options.strict,
+                    options.everything} {}
 
-    Plan run() {
-        planVisibility();
-        for (int c = 0; c < kRadianceComponents; c++) planComponent(static_cast<ShadeOutput>(c));
-        planVertexLighting();
-        planCubes();
-        planEnvironment();
-        planOcclusion();
-        planShadows();
-        planSurfaceImages();
-        planBeauty();
-        plan_.memory_bytes = memory();
-        return std::move(plan_);
+    void plan(PassList& list) {
+        addGeometry(list);
+        addVisibility(list);
+        addEnvironment(list);
+        addRest(list);
+        list.decide(everything_);
     }
+    const std::shared_ptr<PlanResults>& results() const { return results_; }
 
   private:
+    using Terms = std::vector<Result<ShadeTerm>>;
+    using Occlusion = std::vector<Result<SurfaceOcclusion>>;
+
+    // Images are sampled with their sizes as numbers of the fragment arithmetic.
+    void requireSampling(const Profile& profile, const char* what, int line, int width, int height) const {
+        const NumberType type = profile.fragment.type;
+        if (type != NumberType::emulated && type != NumberType::narrow) return;
+        for (const int size : {width, height})
+            if (!holds(profile.fragment.format, size))
+                throw InputError(formatText(
+                    "{}: {} of {}x{} texels cannot be sampled in the profile {}: its format holds no {}",
+                    where(scene_, line), what, width, height, profile.name, size));
+    }
+    void requireSampling(const Profile& profile, const EnvironmentImage& of) const {
+        const Image<float>& latLong = of.radiance.latLong;
+        if (!latLong.empty())
+            requireSampling(profile, "an environment", scene_.environment.line, latLong.width(),
+                            latLong.height());
+    }
+
     bool asked(std::string_view output) const {
-        return std::find(outputs_.begin(), outputs_.end(), output) != outputs_.end();
+        return std::ranges::find(outputs_, output) != outputs_.end();
     }
-    bool visible(size_t object) const { return facts_ == nullptr || facts_->objectVisible[object]; }
-    bool anyVisible(auto&& has) const {
-        for (size_t i = 0; i < objects_.size(); i++)
-            if (visible(i) && has(*objects_[i].material)) return true;
-        return false;
+    bool beautyAsked() const { return asked("beauty") || png_; }
+    bool isShaded(std::string_view component) const { return asked(component) || beautyAsked(); }
+    uint64_t pixels() const {
+        return static_cast<uint64_t>(scene_.camera.width) * static_cast<uint64_t>(scene_.camera.height);
     }
-    bool any(auto&& has) const {
-        for (const PlanObject& object : objects_)
-            if (has(*object.material)) return true;
-        return false;
+    uint64_t samples() const { return pixels() * static_cast<uint64_t>(scene_.render.samples); }
+
+    // The text of a pass that shows nothing for the reason given, if any. Showing's assumptions up to here are the
+    // decision's.
+    PassText textOf(std::string name, std::string why, std::string nothing, std::string unneeded,
+                    PassNumbers numbers = PassNumbers::none, uint64_t memory_bytes = 0) {
+        const bool assumes = showing_.takeAssumption();
+        return {std::move(name),
+                std::move(why),
+                std::move(nothing),
+                std::move(unneeded),
+                assumes ? std::string(kVisibility) : "",
+                numbers,
+                memory_bytes,
+                false,
+                false};
     }
-    void add(std::string name, bool runs, std::string reason, std::vector<std::string> needs = {}) {
-        plan_.passes.push_back({std::move(name), runs, std::move(reason), std::move(needs)});
+    template <class T, class Run, class... Needs>
+    Result<T> add(PassList& list, PassText text, T neutral, Run run, const Needs&... needs) {
+        // What runs refers to the planner's settings.
+        return list.add(
+            std::move(text), profile_, std::move(neutral),
+            [self = shared_from_this(), run = std::move(run)](
+                const PassContext& context, const auto&... values) -> T { return run(context, values...); },
+            needs...);
     }
 
-    void planVisibility() {
-        std::vector<std::string> needs;
-        if (objects_.empty())
-            add("geometry", false, "the scene has no meshes and no planes");
-        else
-            add("geometry", true, formatText("{} objects to place", objects_.size()));
-        if (!objects_.empty()) needs.push_back("geometry");
-        add("visibility", true, "every output is of what is visible", needs);
-        plan_.depth = asked("depth");
-        plan_.ids = asked("ids");
-        plan_.coverage = asked("coverage");
-        for (const auto& [name, runs] : {std::pair("depth", plan_.depth), std::pair("ids", plan_.ids),
-                                         std::pair("coverage", plan_.coverage)})
-            add(name, runs, runs ? "output asked for" : "not an output", {"visibility"});
+    void addGeometry(PassList& list) {
+        const size_t count = showing_.objects().size();
+        PassText text =
+            textOf("geometry", formatText("{} objects to place", count),
+                   count == 0 ? "the scene has no meshes and no planes" : "", "", PassNumbers::vertex);
+        text.isRoot = true;
+        results_->geometry = add(list, std::move(text), Geometry{}, [this](const PassContext& context) {
+            return placeGeometry(settings_, context);
+        });
+        list.whenDone<Geometry>(geometry(),
+                                [self = shared_from_this()](PassList& done, const Geometry& found) {
+                                    self->facts_.geometry = &found;
+                                    done.truncate(self->geometry().pass() + 1);
+                                    self->addVisibility(done);
+                                    self->addEnvironment(done);
+                                    self->addRest(done);
+                                    done.decide(self->everything_);
+                                });
+    }
+    const Result<Geometry>& geometry() const { return *results_->geometry; }
+
+    void addVisibility(PassList& list) {
+        PassText text = textOf("visibility", "every output is of what is visible", "", "",
+                               PassNumbers::vertexDepth, samples() * kBytesPerSample);
+        text.isRoot = true;
+        results_->visibility = add(
+            list, std::move(text), VisibleView{},
+            [this](const PassContext& context, const Geometry& of) {
+                return findVisibleInView(settings_, context, of);
+            },
+            geometry());
+        list.whenDone<VisibleView>(
+            visibility(), [self = shared_from_this()](PassList& done, const VisibleView& found) {
+                self->facts_.visibility = visibilityFacts(*found.scene, self->showing_.objects().size());
+                done.truncate(self->visibility().pass() + 1);
+                self->addEnvironment(done);
+                self->addRest(done);
+                done.decide(self->everything_);
+            });
+    }
+    const Result<VisibleView>& visibility() const { return *results_->visibility; }
+
+    void addEnvironment(PassList& list) {
+        const bool isFile = scene_.environment.kind == EnvironmentKind::file;
+        results_->environmentImage =
+            add(list,
+                textOf("environment image", "", isFile ? "" : "the environment is not an image",
+                       "neither the background nor a mirror shows it, and it lights nothing"),
+                EnvironmentImage{settings_.environment, {}}, [this, isFile](const PassContext&) {
+                    EnvironmentImage image{settings_.environment, {}};
+                    if (isFile)
+                        image.radiance.latLong = loadEnvironment(scene_, settings_.strict, image.warnings);
+                    return image;
+                });
+        const EnvironmentLightMethod method = scene_.environment.lighting;
+        illumination_ = add(
+            list,
+            textOf(std::string(kEnvironmentLight),
+                   formatText("surfaces are lit by the environment: {}",
+                              kEnvironmentLightMethods[static_cast<size_t>(method)]),
+                   method == EnvironmentLightMethod::none ? "it lights no surfaces"
+                   : showing_.environmentIsBlack()        ? "the environment is black"
+                                                          : "",
+                   "neither diffuse nor specular runs", PassNumbers::doubles),
+            EnvironmentIllumination{},
+            [this, method](const PassContext& context, const EnvironmentImage& image) {
+                if (method == EnvironmentLightMethod::map || method == EnvironmentLightMethod::blurred)
+                    requireSampling(context.profile, "a map of irradiance", scene_.environment.line,
+                                    scene_.environment.mapSize, scene_.environment.mapSize);
+                return environmentIllumination(scene_.environment, image.radiance, context.profile,
+                                               settings_.raster.threads);
+            },
+            image());
+        if (!showing_.environmentHasLights() || scene_.environment.shadow.method == ShadowMethod::none)
+            return;
+        list.whenDone<EnvironmentIllumination>(
+            *illumination_,
+            [self = shared_from_this()](PassList& done, const EnvironmentIllumination& found) {
+                self->facts_.casters = castersOf(self->scene_.environment, found.lights);
+                done.truncate(self->illumination_->pass() + 1);
+                self->addRest(done);
+                done.decide(self->everything_);
+            });
+    }
+    const Result<EnvironmentImage>& image() const { return *results_->environmentImage; }
+    // For passes that the environment's light is a part of.
+    using Illumination = std::vector<Result<EnvironmentIllumination>>;
+    Illumination illuminationIf(bool condition) const {
+        return condition ? Illumination{*illumination_} : Illumination{};
+    }
+    static const EnvironmentIllumination& only(const std::vector<const EnvironmentIllumination*>& of) {
+        static const EnvironmentIllumination none;
+        return of.empty() ? none : *of.front();
     }
 
-    // Whether the environment lights surfaces, and whether it does so by lights that glosses reflect.
-    bool environmentLights() const {
-        return scene_.environment.kind != EnvironmentKind::none &&
-               scene_.environment.lighting != EnvironmentLightMethod::none;
-    }
-    bool environmentHasLights() const {
-        return environmentLights() && (scene_.environment.lighting == EnvironmentLightMethod::lights ||
-                                       scene_.environment.lighting == EnvironmentLightMethod::dominant);
+    void addRest(PassList& list) {
+        addLights(list);
+        addShadows(list);
+        addEnvironmentCube(list);
+        addCubes(list);
+        addOcclusion(list);
+        addVertexLighting(list);
+        addViewShadows(list);
+        addTerms(list);
+        addShading(list);
+        addFrame(list);
     }
 
-    // Why a radiance component is zero everywhere, or empty when it may not be.
-    std::string whyNothing(ShadeOutput component) const {
-        const auto isDiffuse = [](const Material& m) { return hasDiffusePart(m); };
-        const auto isGlossy = [](const Material& m) { return m.kind == MaterialKind::blinnPhong; };
-        const auto isMirror = [](const Material& m) { return hasMirrorPart(m); };
-        const auto missing = [&](auto&& has, std::string_view what) -> std::string {
-            if (!any(has)) return formatText("no {} in the scene", what);
-            if (!anyVisible(has)) return formatText("no {} is visible", what);
-            return {};
+    void addLights(PassList& list) {
+        std::vector<bool> shows = showing_.lightsThatShow();
+        showing_.takeAssumption();
+        const auto shown = std::ranges::count(shows, true);
+        if (everything_) std::fill(shows.begin(), shows.end(), true);
+        std::string why = formatText("{} of {} lights of the scene may show", shown, shows.size());
+        if (showing_.environmentHasLights()) why += ", and those of the environment";
+        lights_ = add(
+            list,
+            textOf("lights", why,
+                   shows.empty() && !showing_.environmentHasLights() ? "no lights in the scene" : "",
+                   "neither diffuse nor specular runs"),
+            SceneLights{},
+            [this, shows](const PassContext&,
+                          const std::vector<const EnvironmentIllumination*>& environment) {
+                SceneLights lights;
+                lights.addScene(scene_, shows);
+                lights.addEnvironment(only(environment).lights);
+                return lights;
+            },
+            illuminationIf(showing_.environmentHasLights()));
+    }
+
+    // What each light asks for, if something lies in its way.
+    void addShadows(PassList& list) {
+        shadows_.clear();
+        for (size_t l = 0; l < scene_.lights.size(); l++) {
+            const SceneLight& light = scene_.lights[l];
+            const SurfaceLight source = surfaceLightOf(light);
+            const bool isDirectional = light.kind == LightKind::directional;
+            if (light.shadow.method != ShadowMethod::none)
+                addShadow(list, {LightId::Of::scene, l}, source, light.shadow,
+                          isBlack(isDirectional ? source.irradiance : source.intensity), "");
+        }
+        const Environment& environment = scene_.environment;
+        if (environment.shadow.method == ShadowMethod::none || !showing_.environmentHasLights()) return;
+        if (facts_.casters) {
+            for (const EnvironmentCaster& caster : *facts_.casters)
+                addShadow(list, {LightId::Of::environment, caster.light}, caster.source, environment.shadow,
+                          false,
+                          formatText("region of {:.3g} sr, {:.3g} % of the energy; ", caster.solidAngle_sr,
+                                     100 * caster.share));
+            if (!facts_.casters->empty()) return;
+        }
+        // Those that are not known yet, or that there are none.
+        const int asked = environment.shadowShare > 0 ? kMaxShadowLights : environment.shadowLights;
+        const int lights = environment.lighting == EnvironmentLightMethod::lights
+                               ? environment.lightCount
+                               : DominantLightSearch{}.maxLights;
+        PassText text =
+            textOf("shadows of environment lights", "its lights are known once it is read",
+                   !facts_.casters               ? ""
+                   : environment.shadowShare > 0 ? "no light has so large a share of its energy"
+                                                 : "it has no lights",
+                   unneededShadow(), PassNumbers::fragment,
+                   static_cast<uint64_t>(std::min(asked, lights)) * shadowMemory(environment.shadow, true));
+        text.dependsOn = kEnvironmentLight;
+        text.isLookedUp = true;
+        shadows_.push_back(add(
+            list, std::move(text), CastShadow{},
+            [](const PassContext&, const SceneLights&) { return CastShadow{}; }, *lights_));
+    }
+    std::string unneededShadow() const {
+        return scene_.render.perVertex ? "the scene is lit per vertex" : "neither diffuse nor specular runs";
+    }
+    void addShadow(PassList& list, LightId id, const SurfaceLight& source, const LightShadow& shadow,
+                   bool isBlack, const std::string& about) {
+        constexpr std::string_view kNames[] = {"", "shadow map", "shadow volumes", "planar shadows"};
+        const std::optional<ShadowFit> fit = showing_.fitOf(source, shadow);
+        const std::string nothing =
+            isBlack ? "the light is black" : showing_.whyNoShadow(source, shadow, fit);
+        std::string why = "objects may stand in the light's way";
+        if (fit) why = "cast by " + showing_.namesOf(fit->casters);
+        if (const auto planes = showing_.planarReceivers(); planes && shadow.method == ShadowMethod::planar)
+            why = "may fall on " + showing_.namesOf(*planes);
+        PassText text =
+            textOf(formatText("{} of {}", kNames[static_cast<size_t>(shadow.method)], nameOf(id)),
+                   about + why, nothing.empty() ? "" : about + nothing, unneededShadow(),
+                   PassNumbers::fragment, shadowMemory(shadow, source.kind == LightKind::directional));
+        if (shadow.method == ShadowMethod::volume) text.numbers = PassNumbers::none;
+        text.isLookedUp = true;
+        const auto addOf = [&](auto run) {
+            shadows_.push_back(
+                add(list, std::move(text), CastShadow{}, std::move(run), geometry(), *lights_));
         };
-        switch (component) {
-            case ShadeOutput::ambient:
-                if (!isFinitePositive(scene_.ambient)) return "ambient is 0";
-                return missing(isDiffuse, "diffuse surface");
-            case ShadeOutput::diffuse:
-                if (scene_.lights.empty() && !environmentLights()) return "no lights in the scene";
-                return missing(isDiffuse, "diffuse surface");
-            case ShadeOutput::specular:
-                if (scene_.lights.empty() && !environmentHasLights()) return "no lights in the scene";
-                return missing(isGlossy, "blinn_phong surface");
-            case ShadeOutput::mirror:
-                return missing(isMirror, "mirror");
-            default:
-                if (scene_.environment.kind == EnvironmentKind::none) return "no environment in the scene";
-                if (facts_ && !facts_->backgroundVisible) return "objects cover every pixel";
-                return {};
+        switch (shadow.method) {
+            case ShadowMethod::none:
+                break;
+            case ShadowMethod::map:
+                addOf([this, id, fit, map = shadow.map](const PassContext& context, const Geometry& of,
+                                                        const SceneLights& lights) {
+                    return castByMap(settings_, context, of, lights, id, fit.value_or(ShadowFit{}), map);
+                });
+                break;
+            case ShadowMethod::volume:
+                addOf([id, fit](const PassContext&, const Geometry&, const SceneLights& lights) {
+                    return castByVolumes(lights, id, fit.value_or(ShadowFit{}).casters);
+                });
+                break;
+            case ShadowMethod::planar:
+                addOf([this, id, receivers = showing_.receivers(), planar = shadow.planar](
+                          const PassContext& context, const Geometry& of, const SceneLights& lights) {
+                    return castOnPlanes(settings_, context, of, lights, id, receivers, planar);
+                });
+                // Only their images say where they fall.
+                list.whenDone<CastShadow>(shadows_.back(), [pass = shadows_.back().pass(), about](
+                                                               PassList& done, const CastShadow& found) {
+                    if (!done.passes[pass].runs) return;
+                    std::string& reason = done.passes[pass].reason;
+                    reason = about + "no shadow falls on a plane that is visible";
+                    for (size_t i = 0; i < found.fallsOn.size(); i++)
+                        reason = (i == 0 ? about + "fall on " : reason + ", ") + found.fallsOn[i];
+                });
+                break;
         }
     }
 
-    void planComponent(ShadeOutput component) {
-        const std::string name(kComponentNames[static_cast<size_t>(component)]);
-        const bool output = asked(name), beauty = asked("beauty") || plan_.toneMap;
-        const std::string nothing = whyNothing(component);
-        if (!output && !beauty)
-            add(name, false, "no output shows it", {"visibility"});
-        else if (!nothing.empty())
-            add(name, false, nothing, {"visibility"});
-        else
-            add(name, true, output ? "output asked for" : "part of the beauty", {"visibility"});
-        plan_.request[component] = output;
+    void addEnvironmentCube(PassList& list) {
+        const bool isFile = scene_.environment.kind == EnvironmentKind::file;
+        environmentCube_ = add(
+            list,
+            textOf("environment cube map", "a mirror reflects the environment",
+                   isFile ? "" : "the environment is not an image",
+                   "no mirror that runs reflects the environment", PassNumbers::fragment),
+            std::optional<CubeMap<float>>{},
+            [this](const PassContext& context, const EnvironmentImage& of) -> std::optional<CubeMap<float>> {
+                if (of.radiance.latLong.empty()) return std::nullopt;
+                requireSampling(context.profile, of);
+                return environmentCube(of.radiance, context.profile, settings_.raster.threads);
+            },
+            image());
     }
-    bool runs(std::string_view name) const { return plan_.find(name)->runs; }
-    void addNeed(std::string_view pass, const std::string& need) {
-        for (PlanPass& p : plan_.passes)
-            if (p.name == pass) p.needs.push_back(need);
-    }
-
-    // Gouraud shading, where the scene asks for it.
-    void planVertexLighting() {
-        if (!scene_.render.perVertex) return;
-        plan_.lightVertices = runs("diffuse") || runs("specular");
-        add("vertex lighting", plan_.lightVertices,
-            plan_.lightVertices ? "the scene is lit per vertex" : "neither diffuse nor specular runs",
-            {"visibility"});
-        for (const char* component : {"diffuse", "specular"})
-            if (runs(component)) addNeed(component, "vertex lighting");
+    using EnvironmentCube = std::vector<Result<std::optional<CubeMap<float>>>>;
+    EnvironmentCube environmentCubeIf(bool condition) const {
+        return condition || everything_ ? EnvironmentCube{*environmentCube_} : EnvironmentCube{};
     }
 
-    // A cube map of the scene for each visible mirror that asks for one.
-    void planCubes() {
-        plan_.objectCube.assign(objects_.size(), false);
-        for (size_t i = 0; i < objects_.size(); i++) {
-            const PlanObject& object = objects_[i];
-            if (!object.isMesh || !hasMirrorPart(*object.material) ||
-                scene_.meshes[object.index].reflection != Reflection::scene)
-                continue;
-            const std::string name = "cube map of " + object.name;
-            if (!runs("mirror")) {
-                add(name, false, "the mirror pass does not run");
-                continue;
-            }
-            plan_.objectCube[i] = visible(i);
-            add(name, visible(i),
-                visible(i) ? "a visible mirror reflects the scene" : "its mirror is not visible",
-                {"geometry"});
-            if (visible(i)) addNeed("mirror", name);
+    // A cube map of the scene for each mirror that asks for one. Mirrors in it show the environment.
+    void addCubes(PassList& list) {
+        cubes_.clear();
+        for (uint32_t i = 0; i < showing_.objects().size(); i++) {
+            if (!showing_.hasCube(i)) continue;
+            const uint64_t texels =
+                kFacesPerCube * squared(scene_.meshes[showing_.objects()[i].index].cubeSize);
+            const bool hasOcclusion =
+                everything_ ? scene_.render.occlusionDirections > 0 : showing_.cubesHaveOcclusion();
+            showing_.takeAssumption();
+            const std::string nothing = showing_.whyNoCube(i);
+            const Result<CubeRender> cube = add(
+                list,
+                textOf("cube map of " + showing_.objects()[i].name, "a visible mirror reflects the scene",
+                       nothing, "the mirror pass does not run", PassNumbers::fragment,
+                       texels * 4 * kBytesPerFloat),
+                CubeRender{},
+                [this, i, hasOcclusion](const PassContext& context, const Geometry& of,
+                                        const SceneLights& lights, const EnvironmentImage& radiance,
+                                        const std::vector<const EnvironmentIllumination*>& environment,
+                                        const std::vector<const std::optional<CubeMap<float>>*>& sky,
+                                        const std::vector<const CastShadow*>& shadows) {
+                    static const std::optional<CubeMap<float>> none;
+                    const int size = scene_.meshes[showing_.objects()[i].index].cubeSize;
+                    requireSampling(context.profile, "a cube map", 0, size, size);
+                    return renderObjectCube(settings_, context, i, hasOcclusion, of, lights, radiance,
+                                            only(environment), sky.empty() ? none : *sky.front(), shadows);
+                },
+                geometry(), *lights_, image(), illuminationIf(showing_.environmentLights()),
+                environmentCubeIf(showing_.cubeSeesMirror(i)), shadows_);
+            list.passes.back().text.isLookedUp = true;
+            if (nothing.empty() || everything_) cubes_.emplace_back(i, cube);
         }
     }
 
     // Of what the ambient light and the environment's diffuse light reach, where the scene asks for it.
-    void planOcclusion() {
-        if (scene_.render.occlusionDirections == 0) return;
-        const bool environment =
-            plan_.environmentLight && !environmentHasLights() && (runs("diffuse") || anyCube());
-        plan_.occlusion = runs("ambient") || environment || (anyCube() && isFinitePositive(scene_.ambient));
-        add("ambient occlusion", plan_.occlusion,
-            plan_.occlusion ? formatText("surfaces see their surroundings from {} directions",
-                                         scene_.render.occlusionDirections)
-                            : "nothing that runs is lit from everywhere",
-            {"geometry", "visibility"});
-        if (!plan_.occlusion) return;
-        if (runs("ambient")) addNeed("ambient", "ambient occlusion");
-        if (environment && runs("diffuse")) addNeed("diffuse", "ambient occlusion");
-        if (plan_.lightVertices) addNeed("vertex lighting", "ambient occlusion");
-        for (size_t i = 0; i < objects_.size(); i++)
-            if (plan_.objectCube[i]) addNeed("cube map of " + objects_[i].name, "ambient occlusion");
-    }
-
-    // What each light asks for, if something lies in its way.
-    void planShadows() {
-        const size_t count = scene_.lights.size();
-        for (size_t l = 0; l < count; l++) {
-            const SceneLight& light = scene_.lights[l];
-            if (light.shadow.method == ShadowMethod::none) continue;
-            const bool isBlack =
-                !isFinitePositive(light.kind == LightKind::directional ? light.irradiance : light.intensity);
-            planShadow({formatText("light{}", l), &light.shadow, l}, isBlack, "");
-        }
-        const Environment& environment = scene_.environment;
-        if (environment.shadow.method == ShadowMethod::none) return;
-        if (!facts_ || !facts_->environmentCasters) {
-            add("shadows of environment lights", plan_.environmentLight,
-                plan_.environmentLight ? "its lights are known once it is read" : "it lights nothing",
-                {"environment light"});
-            return;
-        }
-        if (facts_->environmentCasters->empty())
-            add("shadows of environment lights", false,
-                environment.shadowShare > 0 ? "no light has so large a share of its energy"
-                                            : "it has no lights");
-        for (const EnvironmentCaster& caster : *facts_->environmentCasters)
-            planShadow(
-                {formatText("environment light {}", caster.light), &environment.shadow, count + caster.light},
-                false,
-                formatText("region of {:.3g} sr, {:.3g} % of the energy; ", caster.solidAngle_sr,
-                           100 * caster.share));
-    }
-    void planShadow(PlanShadow shadow, bool isBlack, const std::string& why) {
-        constexpr std::string_view kNames[] = {"", "shadow map", "shadow volumes", "planar shadows"};
-        const std::string name =
-            formatText("{} of {}", kNames[static_cast<size_t>(shadow.shadow->method)], shadow.light);
-        const std::string nothing = isBlack ? "the light is black" : whyNoShadow(*shadow.shadow);
-        shadow.runs = nothing.empty();
-        add(name, shadow.runs, why + (shadow.runs ? shadowText(*shadow.shadow) : nothing), {"geometry"});
-        if (shadow.index >= scene_.lights.size()) addNeed(name, "environment light");
-        plan_.shadows.push_back(std::move(shadow));
-        if (!nothing.empty()) return;
-        for (const char* component : {"diffuse", "specular"})
-            if (runs(component)) addNeed(component, name);
-        for (size_t i = 0; i < objects_.size(); i++)
-            if (plan_.objectCube[i]) addNeed("cube map of " + objects_[i].name, name);
-    }
-    // The objects of the shadow that is planned next; null: not known yet.
-    const std::vector<uint32_t>* shadowObjects() const {
-        return facts_ && facts_->shadowObjects ? &(*facts_->shadowObjects)[plan_.shadows.size()] : nullptr;
-    }
-    std::string whyNoShadow(const LightShadow& shadow) const {
-        if (!runs("diffuse") && !runs("specular") && !anyCube()) return "neither diffuse nor specular runs";
-        if (scene_.render.perVertex && !anyCube()) return "the scene is lit per vertex";
-        if (!shadowObjects() || !shadowObjects()->empty()) return {};
-        return shadow.method == ShadowMethod::planar ? "no shadow falls on a plane that is visible"
-                                                     : "nothing stands between the light and what is visible";
-    }
-    // The objects that cast, or are planes that shadows fall on, by name; the first few of many.
-    std::string shadowText(const LightShadow& shadow) const {
-        constexpr size_t kNamed = 4;
-        const std::vector<uint32_t>* found = shadowObjects();
-        if (!found) return "objects may stand in the light's way";
-        std::string text = shadow.method == ShadowMethod::planar ? "fall on " : "cast by ";
-        for (size_t i = 0; i < std::min(found->size(), kNamed); i++)
-            text += (i > 0 ? ", " : "") + objects_[(*found)[i]].name;
-        return found->size() > kNamed ? formatText("{} and {} more", text, found->size() - kNamed) : text;
-    }
-
-    bool anyCube() const {
-        return std::find(plan_.objectCube.begin(), plan_.objectCube.end(), true) != plan_.objectCube.end();
-    }
-    // A mirror looks into the environment: a visible one directly, or any other inside a cube map.
-    bool mirrorSeesEnvironment() const {
-        if (!runs("mirror")) return false;
-        for (size_t i = 0; i < objects_.size(); i++)
-            if (hasMirrorPart(*objects_[i].material) && !plan_.objectCube[i] && (visible(i) || anyCube()))
-                return true;
-        return false;
-    }
-
-    void planEnvironment() {
-        const bool isFile = scene_.environment.kind == EnvironmentKind::file;
-        plan_.environmentCube = isFile && mirrorSeesEnvironment();
-        plan_.environmentLight = environmentLights() && (runs("diffuse") || runs("specular") || anyCube());
-        plan_.readEnvironment =
-            isFile && (plan_.environmentCube || plan_.environmentLight || runs("background") || anyCube());
-        if (!isFile) {
-            add("environment image", false, "the environment is not an image");
-        } else if (plan_.readEnvironment) {
-            add("environment image", true,
-                runs("background")       ? "the background shows it"
-                : plan_.environmentLight ? "it lights surfaces"
-                                         : "a mirror reflects it");
-        } else {
-            add("environment image", false,
-                "neither the background nor a mirror shows it, and it lights nothing");
-        }
-        if (environmentLights()) {
-            add("environment light", plan_.environmentLight,
-                plan_.environmentLight
-                    ? formatText("surfaces are lit by the environment: {}",
-                                 kEnvironmentLightMethods[static_cast<size_t>(scene_.environment.lighting)])
-                    : "neither diffuse nor specular runs",
-                isFile ? std::vector<std::string>{"environment image"} : std::vector<std::string>{});
-            for (const char* component : {"diffuse", "specular"})
-                if (plan_.environmentLight && runs(component)) addNeed(component, "environment light");
-        }
-        add("environment cube map", plan_.environmentCube,
-            plan_.environmentCube ? "a mirror reflects the environment"
-            : isFile              ? "no mirror that runs reflects the environment"
-                                  : "the environment is not an image",
-            {"environment image"});
-        if (plan_.readEnvironment && runs("background")) addNeed("background", "environment image");
-        if (plan_.environmentCube) addNeed("mirror", "environment cube map");
-        if (!plan_.readEnvironment) return;
-        for (size_t i = 0; i < objects_.size(); i++)
-            if (plan_.objectCube[i]) addNeed("cube map of " + objects_[i].name, "environment image");
-    }
-
-    void planSurfaceImages() {
-        for (const auto& [name, output] :
-             {std::pair("normals", ShadeOutput::normals), std::pair("distance", ShadeOutput::distance)}) {
-            plan_.request[output] = asked(name);
-            add(name, asked(name), asked(name) ? "output asked for" : "not an output", {"visibility"});
-        }
-    }
-
-    void planBeauty() {
-        const bool beauty = asked("beauty") || plan_.toneMap;
-        plan_.request[ShadeOutput::beauty] = beauty;
-        std::vector<std::string> needs;
-        for (const std::string_view component : kComponentNames)
-            if (beauty && runs(component)) needs.emplace_back(component);
-        add("beauty", beauty,
-            asked("beauty") ? "output asked for"
-            : plan_.toneMap ? "the PNG shows it"
-                            : "not an output",
-            needs);
-        add("tone mapping", plan_.toneMap, plan_.toneMap ? "a PNG is written" : "no PNG is written",
-            {"beauty"});
-    }
-
-    static constexpr uint64_t kBytesPerSample = 4 + 4 + 1;  // depth, id, stencil
-    // Of the images that a light's shadows are looked up in, and of what they are drawn into.
-    static uint64_t shadowMemory(const LightShadow& shadow, bool isDirectional) {
-        const auto squared = [](int size) {
-            return static_cast<uint64_t>(size) * static_cast<uint64_t>(size);
-        };
-        if (shadow.method == ShadowMethod::map)
-            return (isDirectional ? 1 : kFacesPerCube) * squared(shadow.map.size) *
-                   (kBytesPerSample + 2 * sizeof(double));
-        if (shadow.method == ShadowMethod::planar)
-            return squared(shadow.planar.resolution) * (kBytesPerSample + sizeof(uint32_t) + sizeof(float));
-        return 0;
-    }
-    // Bytes of the largest buffers that live at one time.
-    uint64_t memory() const {
-        constexpr uint64_t kBytesPerFloat = 4;
-        const uint64_t pixels =
-            static_cast<uint64_t>(scene_.camera.width) * static_cast<uint64_t>(scene_.camera.height);
-        uint64_t floats = 0;
-        for (int o = 0; o < kShadeOutputs; o++)
-            if (plan_.request.wanted[o])
-                floats += static_cast<ShadeOutput>(o) == ShadeOutput::distance ? 1 : 3;
-        floats += (plan_.depth ? 1u : 0u) + (plan_.ids ? 2u : 0u) + (plan_.coverage ? 1u : 0u);
-        // The images, and once more as the channels that are written.
-        uint64_t bytes = pixels * (static_cast<uint64_t>(scene_.render.samples) * kBytesPerSample +
-                                   2 * floats * kBytesPerFloat);
-        for (size_t i = 0; i < objects_.size(); i++) {
-            if (!plan_.objectCube[i]) continue;
-            const auto size = static_cast<uint64_t>(scene_.meshes[objects_[i].index].cubeSize);
-            bytes += kFacesPerCube * size * size * 4 * kBytesPerFloat;
-        }
+    void addOcclusion(PassList& list) {
+        occlusion_.clear();
+        const Render& render = scene_.render;
+        if (render.occlusionDirections == 0) return;
         // One depth map at a time, and a point and its sums for each fragment.
-        if (plan_.occlusion) {
-            constexpr uint64_t kBytesPerPoint = 256;
-            const auto size = static_cast<uint64_t>(scene_.render.occlusionMapSize);
-            bytes += size * size * kBytesPerSample +
-                     pixels * static_cast<uint64_t>(scene_.render.samples) * kBytesPerPoint;
-        }
+        constexpr uint64_t kBytesPerPoint = 256;
+        const std::string nothing = showing_.whyNoOcclusion();
+        hasOcclusion_ = nothing.empty() || everything_;
+        occlusion_.push_back(add(
+            list,
+            textOf(
+                "ambient occlusion",
+                formatText("surfaces see their surroundings from {} directions", render.occlusionDirections),
+                nothing, "nothing that runs is lit from everywhere", PassNumbers::doubles,
+                squared(render.occlusionMapSize) * kBytesPerSample + samples() * kBytesPerPoint),
+            SurfaceOcclusion{},
+            [this](const PassContext& context, const Geometry& of, const VisibleView& visible) {
+                return occlusionInView(settings_, context, of, visible);
+            },
+            geometry(), visibility()));
+        list.passes.back().text.isLookedUp = true;
+    }
+    // Gouraud shading, where the scene asks for it.
+    void addVertexLighting(PassList& list) {
+        vertices_.clear();
+        if (!scene_.render.perVertex) return;
+        const bool hasSurroundings =
+            showing_.environmentIsDiffuse() || !isBlack(scene_.ambient) || everything_;
+        vertices_.push_back(add(
+            list,
+            textOf("vertex lighting", "the scene is lit per vertex", "", "neither diffuse nor specular runs",
+                   PassNumbers::vertex),
+            std::vector<VertexRadiance>{},
+            [this](const PassContext& context, const Geometry& of, const VisibleView& visible,
+                   const SceneLights& lights, const std::vector<const EnvironmentIllumination*>& environment,
+                   const std::vector<const SurfaceOcclusion*>& occlusion) {
+                static const SurfaceOcclusion open;
+                return lightVertices(settings_, context, of, visible, lights, only(environment),
+                                     occlusion.empty() ? open : *occlusion.front());
+            },
+            geometry(), visibility(), *lights_, illuminationIf(showing_.environmentLights()),
+            hasSurroundings ? occlusion_ : Occlusion{}));
+    }
+
+    // What stands between the lights and what the camera sees.
+    void addViewShadows(PassList& list) {
+        viewShadows_.clear();
+        if (shadows_.empty() || scene_.render.perVertex) return;
         uint64_t volumes = 0;
-        for (const PlanShadow& shadow : plan_.shadows) {
-            if (!shadow.runs) continue;
-            const bool isFar = shadow.index >= scene_.lights.size() ||
-                               scene_.lights[shadow.index].kind == LightKind::directional;
-            bytes += shadowMemory(*shadow.shadow, isFar);
-            if (shadow.shadow->method == ShadowMethod::volume) volumes++;
+        std::string nothing = "no light that shows casts shadows on what is visible";
+        for (const Result<CastShadow>& shadow : shadows_) {
+            const PassText& text = list.passes[shadow.pass()].text;
+            if (text.nothing.empty()) nothing.clear();
         }
-        if (plan_.environmentLight && !(facts_ && facts_->environmentCasters)) {
-            const Environment& environment = scene_.environment;
-            const int asked = environment.shadowShare > 0 ? kMaxShadowLights : environment.shadowLights;
-            const int lights = environment.lighting == EnvironmentLightMethod::lights
-                                   ? environment.lightCount
-                                   : DominantLightSearch{}.maxLights;
-            const auto most = static_cast<uint64_t>(std::min(asked, lights));
-            bytes += most * shadowMemory(environment.shadow, true);
-            if (environment.shadow.method == ShadowMethod::volume) volumes += most;
+        for (const SceneLight& light : scene_.lights)
+            volumes += light.shadow.method == ShadowMethod::volume ? 1 : 0;
+        if (scene_.environment.shadow.method == ShadowMethod::volume)
+            volumes += static_cast<uint64_t>(std::min(
+                scene_.environment.shadowShare > 0 ? kMaxShadowLights : scene_.environment.shadowLights,
+                scene_.environment.lightCount));
+        // The depths of the view, and a mask for each light.
+        const uint64_t bytes = volumes > 0 ? samples() * (kBytesPerSample + sizeof(uint32_t) + volumes) : 0;
+        viewShadows_.push_back(add(
+            list,
+            textOf("shadows in view", "", nothing, "neither diffuse nor specular runs",
+                   PassNumbers::vertexDepth, bytes),
+            ViewShadows{},
+            [this](const PassContext& context, const Geometry& of, const SceneLights& lights,
+                   const std::vector<const CastShadow*>& shadows) {
+                return shadowsOfView(settings_, context, of, lights, shadows, settings_.view,
+                                     scene_.render.samples, kNoInstance);
+            },
+            geometry(), *lights_, shadows_));
+        list.passes.back().text.isLookedUp = true;
+    }
+
+    // A result for as long as the plan lives, or several.
+    template <class T>
+    static std::reference_wrapper<const T> lent(const T& value) {
+        return value;
+    }
+    template <class T>
+    static std::vector<const T*> lent(const std::vector<const T*>& values) {
+        return values;
+    }
+    // Of a pass that is black where all of these are: whether all that may show assume that something is visible.
+    template <class T>
+    static std::string dependenceOf(const PassList& list, const std::vector<Result<T>>& parts) {
+        const auto isCertain = [&](const Result<T>& part) {
+            const PassText& text = list.passes[part.pass()].text;
+            return text.nothing.empty() && text.dependsOn.empty();
+        };
+        return std::ranges::any_of(parts, isCertain) ? "" : std::string(kVisibility);
+    }
+
+    // A term of shading. nothing: why it is black, if it is.
+    template <class AddTo, class... Needs>
+    void addTerm(PassList& list, ShadeOutput output, std::string_view name, const std::string& nothing,
+                 AddTo addTo, const Needs&... needs) {
+        const bool isOutput = asked(name), isComponent = static_cast<int>(output) < kRadianceComponents;
+        const bool isWanted = isOutput || everything_;
+        const Result<ShadeTerm> term = add(
+            list,
+            textOf(std::string(name),
+                   isOutput      ? "output asked for"
+                   : isComponent ? "part of the beauty"
+                                 : "the PNG shows it",
+                   nothing, isComponent ? "no output shows it" : "not an output", PassNumbers::fragment),
+            ShadeTerm{},
+            [output, isWanted, isComponent, addTo](const PassContext&, const auto&... values) {
+                return ShadeTerm{[=, ... of = lent(values)](ShadeJob& job) {
+                    if (isWanted || !isComponent) job.request[output] = true;
+                    if (isComponent) job.request.evaluated[static_cast<size_t>(output)] = true;
+                    addTo(job, of...);
+                }};
+            },
+            needs...);
+        const bool isShadedNow =
+            isOutput || (isComponent && beautyAsked()) || (output == ShadeOutput::beauty && png_);
+        if (isComponent) components_.push_back(term);
+        if (isShadedNow || everything_) terms_.push_back(term);
+        hasTerms_ = hasTerms_ || (isShadedNow && nothing.empty());
+        hasComponents_ = hasComponents_ || (isComponent && nothing.empty());
+    }
+    void addTerms(PassList& list) {
+        terms_.clear(), components_.clear();
+        hasTerms_ = hasComponents_ = false;
+        using Vertices = std::vector<const std::vector<VertexRadiance>*>;
+        using Occlusions = std::vector<const SurfaceOcclusion*>;
+        using Shadows = std::vector<const ViewShadows*>;
+        const auto addOcclusionTo = [](ShadeJob& job, const Occlusions& occlusion) {
+            if (!occlusion.empty() && !occlusion.front()->fragments.empty())
+                job.occlusion = &occlusion.front()->fragments;
+        };
+        const auto addVerticesTo = [](ShadeJob& job, const Vertices& vertices) {
+            if (!vertices.empty()) job.vertexRadiance = vertices.front();
+        };
+        const auto addShadowsTo = [](ShadeJob& job, const Shadows& shadows) {
+            if (!shadows.empty()) job.visibility = shadows.front()->visibility.get();
+        };
+        const bool perVertex = scene_.render.perVertex;
+        const Occlusion ofFragments = perVertex ? Occlusion{} : occlusion_;
+
+        // Where lights are evaluated at vertices, these also know what is open.
+        addTerm(
+            list, ShadeOutput::ambient, "ambient", showing_.whyBlack(ShadeOutput::ambient),
+            [=](ShadeJob& job, const Occlusions& occlusion, const Vertices& vertices) {
+                addOcclusionTo(job, occlusion);
+                addVerticesTo(job, vertices);
+            },
+            ofFragments, !occlusion_.empty() && hasOcclusion_ ? vertices_ : decltype(vertices_){});
+        addTerm(
+            list, ShadeOutput::diffuse, "diffuse", showing_.whyBlack(ShadeOutput::diffuse),
+            [=](ShadeJob& job, const SceneLights& lights,
+                const std::vector<const EnvironmentIllumination*>& environment, const Shadows& shadows,
+                const Occlusions& occlusion, const Vertices& vertices) {
+                job.sources = sourcesOf(lights, only(environment));
+                addShadowsTo(job, shadows);
+                addOcclusionTo(job, occlusion);
+                addVerticesTo(job, vertices);
+            },
+            *lights_, illuminationIf(showing_.environmentLights()), viewShadows_,
+            showing_.environmentIsDiffuse() || everything_ ? ofFragments : Occlusion{}, vertices_);
+        addTerm(
+            list, ShadeOutput::specular, "specular", showing_.whyBlack(ShadeOutput::specular),
+            [=](ShadeJob& job, const SceneLights& lights, const Shadows& shadows, const Vertices& vertices) {
+                job.sources.lights = &lights.lights();
+                job.sources.shows = &lights.shows();
+                addShadowsTo(job, shadows);
+                addVerticesTo(job, vertices);
+            },
+            *lights_, viewShadows_, vertices_);
+
+        std::vector<uint32_t> cubeOf;
+        std::vector<Result<CubeRender>> cubes;
+        for (const auto& [object, cube] : cubes_) cubeOf.push_back(object), cubes.push_back(cube);
+        const std::string noMirror = showing_.whyBlack(ShadeOutput::mirror);
+        const bool seesEnvironment = showing_.isEnvironmentMirrorVisible();
+        addTerm(
+            list, ShadeOutput::mirror, "mirror", noMirror,
+            [cubeOf](ShadeJob& job, const std::vector<const std::optional<CubeMap<float>>*>& sky,
+                     const std::vector<const CubeRender*>& of) {
+                if (!sky.empty() && *sky.front()) job.environmentCube = &**sky.front();
+                for (size_t i = 0; i < of.size(); i++) job.sceneCubes[cubeOf[i]] = &of[i]->radiance;
+            },
+            environmentCubeIf(seesEnvironment), cubes);
+        addTerm(
+            list, ShadeOutput::background, "background", showing_.whyBlack(ShadeOutput::background),
+            [this, profile = profile_](ShadeJob& job, const EnvironmentImage& of) {
+                requireSampling(*profile, of);
+                job.environment = &of.radiance;
+            },
+            image());
+
+        const auto nothingMore = [](ShadeJob&, const auto&...) {};
+        addTerm(
+            list, ShadeOutput::beauty, "beauty", hasComponents_ ? "" : "every part of it is black",
+            [](ShadeJob&, const std::vector<const ShadeTerm*>&) {}, components_);
+        if (hasComponents_) list.passes.back().text.dependsOn = dependenceOf(list, components_);
+        addTerm(list, ShadeOutput::normals, "normals", "", nothingMore);
+        addTerm(list, ShadeOutput::distance, "distance", "", nothingMore);
+    }
+
+    void addShading(PassList& list) {
+        uint64_t floats = 0;
+        for (const Result<ShadeTerm>& term : terms_)
+            floats += list.passes[term.pass()].name() == "distance" ? 1 : 3;
+        results_->shading = add(
+            list,
+            textOf("shading", "", hasTerms_ ? "" : "all that it would show is black", "no output shows it",
+                   PassNumbers::fragment, pixels() * floats * kBytesPerFloat),
+            Shading{},
+            [this](const PassContext& context, const Geometry& of, const VisibleView& visible,
+                   const std::vector<const ShadeTerm*>& terms) {
+                return shadeView(settings_, context, of, visible, terms);
+            },
+            geometry(), visibility(), terms_);
+        if (hasTerms_) list.passes.back().text.dependsOn = dependenceOf(list, terms_);
+    }
+
+    void addFrame(PassList& list) {
+        std::vector<Result<OutputChannels>> made;
+        const auto addOutput = [&](std::string_view name, OutputChannels (*make)(const VisibleView&),
+                                   uint64_t floats) {
+            const Result<OutputChannels> output = add(
+                list,
+                textOf(std::string(name), "output asked for", "", "not an output", PassNumbers::none,
+                       pixels() * floats * kBytesPerFloat),
+                OutputChannels{name, {}},
+                [make](const PassContext&, const VisibleView& visible) { return make(visible); },
+                visibility());
+            if (asked(name) || everything_) made.push_back(output);
+        };
+        addOutput("depth", depthChannels, 1);
+        addOutput("ids", idChannels, 2);
+        addOutput("coverage", coverageChannels, 1);
+
+        uint64_t floats = 0;
+        bool isAnyShaded = false;
+        for (const std::string& output : outputs_) {
+            const bool isOne = output == "distance" || output == "depth" || output == "coverage";
+            floats += output == "ids" ? 2 : isOne ? 1 : 3;
+            isAnyShaded = isAnyShaded || !(output == "depth" || output == "ids" || output == "coverage");
         }
-        // The depths of one view at a time, and a mask for each light.
-        if (volumes > 0)
-            bytes += pixels * static_cast<uint64_t>(scene_.render.samples) *
-                     (kBytesPerSample + sizeof(uint32_t) + volumes);
-        return bytes;
+        using ShadingIf = std::vector<Result<Shading>>;
+        PassText text = textOf("frame", "the outputs as channels", "", "", PassNumbers::none,
+                               pixels() * floats * kBytesPerFloat);
+        text.isRoot = true;
+        results_->frame = add(
+            list, std::move(text), Frame{},
+            [this](const PassContext& context, const std::vector<const OutputChannels*>& channels,
+                   const std::vector<const Shading*>& shading) {
+                static const Shading none;
+                return frameOf(settings_, context, outputs_, channels,
+                               shading.empty() ? none : *shading.front());
+            },
+            made, isAnyShaded || everything_ ? ShadingIf{*results_->shading} : ShadingIf{});
+
+        PassText png = textOf("tone mapping", "a PNG is written", "", "no PNG is written", PassNumbers::none,
+                              pixels() * 3);
+        png.isRoot = png_;
+        results_->toned = add(
+            list, std::move(png), Image<uint8_t>{},
+            [this](const PassContext&, const Shading& shading) { return toneMapped(settings_, shading); },
+            *results_->shading);
     }
 
     const Scene& scene_;
-    const VisibilityFacts* facts_;
-    std::vector<PlanObject> objects_;
-    std::vector<std::string> outputs_;
-    Plan plan_;
+    const std::vector<std::string> outputs_;
+    const bool png_, everything_;
+    std::shared_ptr<const Profile> profile_;
+    PlanFacts facts_;
+    Showing showing_;
+    const SceneSettings settings_;
+
+    // What passes are added with, as far as they are: of the plan as it is now.
+    std::shared_ptr<PlanResults> results_ = std::make_shared<PlanResults>();
+    std::optional<Result<EnvironmentIllumination>> illumination_;
+    std::optional<Result<SceneLights>> lights_;
+    std::vector<Result<CastShadow>> shadows_;
+    std::optional<Result<std::optional<CubeMap<float>>>> environmentCube_;
+    std::vector<std::pair<uint32_t, Result<CubeRender>>> cubes_;
+    Occlusion occlusion_;
+    bool hasOcclusion_ = false;
+    std::vector<Result<std::vector<VertexRadiance>>> vertices_;
+    std::vector<Result<ViewShadows>> viewShadows_;
+    Terms terms_, components_;  // that shading shows; of the beauty
+    bool hasTerms_ = false, hasComponents_ = false;
 };
 
 }  // namespace
 
-std::vector<PlanObject> planObjects(const Scene& scene) {
-    std::vector<PlanObject> objects;
-    for (size_t m = 0; m < scene.meshes.size(); m++) {
-        const MeshObject& mesh = scene.meshes[m];
-        for (size_t p = 0; p < mesh.objectToWorld.size(); p++) {
-            const std::string name =
-                mesh.objectToWorld.size() == 1 ? mesh.name : formatText("{}[{}]", mesh.name, p);
-            objects.push_back({name, true, m, p, &scene.materials[mesh.material]});
-        }
-    }
-    for (size_t p = 0; p < scene.planes.size(); p++)
-        objects.push_back({scene.planes[p].name, false, p, 0, &scene.materials[scene.planes[p].material]});
-    return objects;
-}
-
-std::vector<bool> shadowReceivers(const Scene& scene, const Plan& plan,
-                                  const std::vector<bool>& objectVisible) {
-    const bool anyCube =
-        std::find(plan.objectCube.begin(), plan.objectCube.end(), true) != plan.objectCube.end();
-    std::vector<bool> receivers;
-    for (const PlanObject& object : planObjects(scene))
-        receivers.push_back(hasDiffusePart(*object.material) && (anyCube || objectVisible[receivers.size()]));
-    return receivers;
-}
-
-const PlanPass* Plan::find(std::string_view name) const {
-    for (const PlanPass& pass : passes)
-        if (pass.name == name) return &pass;
-    return nullptr;
-}
-
-Plan makePlan(const Scene& scene, const PlanRequest& request, const VisibilityFacts* facts) {
-    return Planner(scene, request, facts).run();
+Plan makePlan(const Scene& scene, const RenderOptions& options, PlanFacts facts) {
+    const auto planner = std::make_shared<Planner>(scene, options, std::move(facts));
+    Plan plan;
+    planner->plan(plan);
+    plan.results = planner->results();
+    return plan;
 }
 
 }  // namespace etalon

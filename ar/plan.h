@@ -1,83 +1,28 @@
 // The plan: which passes a scene and the requested outputs need, and why each other one does not run.
+//
+// A plan is the passes themselves. It is made before anything is known but the scene file, and assumes that whatever
+// may be visible is. Three passes refine it when they have run: "geometry" (what lights can reach, what can occlude
+// and cast), "visibility" (what a pixel shows) and "environment light" (which of its lights cast shadows). They
+// prune the passes behind them, and put in others; what they may still change says so in Pass::dependsOn. So far as
+// a decision is made it stays: more knowledge only ends passes, or puts those of the environment's lights in.
 #pragma once
 
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "ar/json.h"
+#include "ar/pass.h"
 #include "ar/scene.h"
-#include "lighting/shade.h"
+#include "ar/scene_passes.h"
+#include "raster/rasterizer.h"
 
 namespace etalon {
 
-// One pass. name is unique in a plan; needs: the names of the passes whose results it reads.
-struct PlanPass {
-    std::string name;
-    bool runs = false;
-    std::string reason;
-    std::vector<std::string> needs;
-};
-
-// An object of the scene that is drawn on its own: a mesh placed once, or a plane. Meshes come first, in the
-// order of the file, each with its placements in order; then the planes.
-struct PlanObject {
-    std::string name;
-    bool isMesh = false;
-    size_t index = 0, placement = 0;  // into Scene::meshes and MeshObject::objectToWorld, or Scene::planes
-    const Material* material = nullptr;
-};
-std::vector<PlanObject> planObjects(const Scene& scene);
-
-// A light whose shadows the scene asks for.
-struct PlanShadow {
-    std::string light;                    // "light0", "environment light 3"
-    const LightShadow* shadow = nullptr;  // the scene's
-    size_t index = 0;                     // of the light among SurfaceScene::lights
-    bool runs = false;
-};
-
-// A light of the environment that casts shadows.
-struct EnvironmentCaster {
-    size_t light = 0;          // among those that addEnvironmentLight adds
-    double solidAngle_sr = 0;  // that it stands for
-    double share = 0;          // of the energy of all of them
-};
-
-// What earlier passes found; without it the plan assumes that everything may be visible.
-struct VisibilityFacts {
-    std::vector<bool> objectVisible;  // for each of planObjects
-    bool backgroundVisible = true;
-    // Once the environment's lights are known.
-    std::optional<std::vector<EnvironmentCaster>> environmentCasters;
-    // For each of the shadows of the plan with the facts above: the objects that stand between the light and
-    // what is lit (map, volume), or the planes that shadows fall on (planar).
-    std::optional<std::vector<std::vector<uint32_t>>> shadowObjects;
-};
-
-struct Plan {
-    std::vector<PlanPass> passes;
-
-    // The same decisions for the renderer.
-    ShadeRequest request;           // what shading makes
-    bool readEnvironment = false;   // the lat-long image
-    bool environmentCube = false;   // its cube map for mirrors
-    bool environmentLight = false;  // what it lights surfaces with
-    std::vector<bool> objectCube;   // for each of planObjects: render its cube map
-    bool lightVertices = false;     // lights are evaluated at vertices
-    bool occlusion = false;         // what surfaces see of their surroundings
-    // Of the scene's lights in their order, then of the environment's, as far as these are known.
-    std::vector<PlanShadow> shadows;
-    bool depth = false, ids = false, coverage = false, toneMap = false;
-    uint64_t memory_bytes = 0;  // of render target and images, at most
-
-    const PlanPass* find(std::string_view name) const;
-};
-
-// Which objects shadows may fall on: those whose surface reflects lights and that a pixel, or a cube map, may
-// show.
-std::vector<bool> shadowReceivers(const Scene& scene, const Plan& plan,
-                                  const std::vector<bool>& objectVisible);
+struct Plan;
 
 // What is asked for beyond the scene's own outputs.
 struct PlanRequest {
@@ -85,10 +30,72 @@ struct PlanRequest {
     bool png = false;                  // a tone mapped image is written
 };
 
-Plan makePlan(const Scene& scene, const PlanRequest& request, const VisibilityFacts* facts = nullptr);
+// How far a render is: before each pass, and while one runs. pass: its number among `passes` of the plan as it is
+// now; part: of it that is done.
+struct RenderProgress {
+    const Plan* plan = nullptr;
+    size_t pass = 0;
+    double part = 0;
+};
+
+struct RenderOptions {
+    PlanRequest request;
+    std::optional<Profile> profile;  // none: the scene's
+    RasterOptions raster;            // threads and tile size; change no bit
+    bool strict = false;             // questionable input (negative or NaN radiance) is an error
+    // Every pass runs, and shading evaluates also what is black; no bit of an output changes, as far as no number
+    // overflows.
+    bool everything = false;
+    std::function<void(const RenderProgress&)> progress;  // may come from any thread, one call at a time
+    std::function<void(uint64_t bytes)> announceMemory;   // called before memory of that size is taken
+};
+
+// What a view shows.
+struct VisibilityFacts {
+    std::vector<bool> objectVisible;  // for each of sceneObjects
+    bool backgroundVisible = true;
+};
+
+// A light of the environment that casts shadows.
+struct EnvironmentCaster {
+    size_t light = 0;          // among those of the environment
+    double solidAngle_sr = 0;  // that it stands for
+    double share = 0;          // of the energy of all of them
+    SurfaceLight source;
+};
+
+// What passes have found.
+struct PlanFacts {
+    const Geometry* geometry = nullptr;
+    std::optional<VisibilityFacts> visibility;
+    std::optional<std::vector<EnvironmentCaster>> casters;
+};
+
+// What the passes yield that is not read by others. Those of a refined plan replace those of the plan before.
+struct PlanResults {
+    std::optional<Result<Geometry>> geometry;
+    std::optional<Result<VisibleView>> visibility;
+    std::optional<Result<EnvironmentImage>> environmentImage;
+    std::optional<Result<Shading>> shading;
+    std::optional<Result<Frame>> frame;
+    std::optional<Result<Image<uint8_t>>> toned;
+};
+
+struct Plan : PassList {
+    std::shared_ptr<PlanResults> results;
+};
+
+// The scene outlives the plan. facts: what is known already, for plans that are not run from their beginning.
+Plan makePlan(const Scene& scene, const RenderOptions& options, PlanFacts facts = {});
+
+// The passes whose results a pass reads: of one that runs those that run, of one that does not all that it names.
+std::vector<std::string> namesOfNeeds(const Plan& plan, const Pass& pass);
 
 // One line for each pass, then the memory.
 std::string planText(const Plan& plan);
+// Per pass: name, runs, reason, depends_on (or null), needs, arithmetic (null: it does not compute), memory_bytes, and
+// the seconds that it took (null: it has not run).
+Json planPassesJson(const Plan& plan);
 std::string planJson(const Plan& plan);
 // Graphviz: an arrow from a pass to each pass that reads its result; passes that do not run are dashed.
 std::string planDot(const Plan& plan);

@@ -1,32 +1,19 @@
-// From a scene to a frame: loads what the plan needs, runs its passes.
+// From a scene to a frame: makes the plan and runs its passes.
 #pragma once
 
-#include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "ar/frame.h"
 #include "ar/plan.h"
 #include "ar/scene.h"
-#include "raster/profile.h"
-#include "raster/rasterizer.h"
 
 namespace etalon {
 
-struct RenderOptions {
-    PlanRequest request;
-    std::optional<Profile> profile;  // none: the scene's
-    RasterOptions raster;            // threads and tile size; change no bit
-    bool strict = false;             // questionable input (negative or NaN radiance) is an error
-    std::function<void(const std::string& pass)> progress;
-    std::function<void(uint64_t bytes)> announceMemory;  // called before memory of that size is taken
-};
-
 struct RenderResult {
     Frame frame;                        // the outputs as channels, with metadata
-    Image<float> beauty;                // three channels, when the plan has a beauty
-    Plan plan;                          // as it ran
+    Image<uint8_t> toned;               // the tone mapped beauty, where a PNG was asked for
+    Plan plan;                          // as it ran: passes with their times, without their results
     std::vector<std::string> warnings;  // one line each
     RasterStatistics raster;            // of the camera's view
     ShadeStatistics shading;
@@ -36,7 +23,7 @@ struct RenderResult {
 // need more memory than the machine has.
 RenderResult renderScene(const Scene& scene, const RenderOptions& options);
 
-// The plan as renderScene would run it: loads the geometry and finds what is visible.
+// The plan as renderScene begins with it: places the geometry, and draws nothing.
 Plan planScene(const Scene& scene, const RenderOptions& options);
 
 }  // namespace etalon

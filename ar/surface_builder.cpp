@@ -9,9 +9,8 @@
 #include "numeric/text.h"
 
 namespace etalon {
-namespace {
 
-SurfaceMaterial toSurface(const Material& material) {
+SurfaceMaterial surfaceMaterialOf(const Material& material) {
     SurfaceMaterial surface;
     surface.kind = material.kind;
     surface.diffuse = material.diffuse;
@@ -26,7 +25,7 @@ SurfaceMaterial toSurface(const Material& material) {
     return surface;
 }
 
-SurfaceLight toSurface(const SceneLight& light) {
+SurfaceLight surfaceLightOf(const SceneLight& light) {
     SurfaceLight surface;
     surface.toLight = {-light.direction.x, -light.direction.y, -light.direction.z};
     surface.irradiance = light.irradiance;
@@ -38,6 +37,32 @@ SurfaceLight toSurface(const SceneLight& light) {
     surface.cosOuter = sinCosOfDegrees(light.outer_deg).cos;
     return surface;
 }
+
+SurfaceEnvironment surfaceEnvironmentOf(const Environment& environment) {
+    SurfaceEnvironment surface;
+    if (environment.kind == EnvironmentKind::constant) surface.constant = environment.constant;
+    const SinCos rotation = sinCosOfDegrees(environment.rotation_deg);
+    surface.cosRotation = rotation.cos;
+    surface.sinRotation = rotation.sin;
+    return surface;
+}
+
+std::vector<SceneObject> sceneObjects(const Scene& scene) {
+    std::vector<SceneObject> objects;
+    for (size_t m = 0; m < scene.meshes.size(); m++) {
+        const MeshObject& mesh = scene.meshes[m];
+        for (size_t p = 0; p < mesh.objectToWorld.size(); p++) {
+            const std::string name =
+                mesh.objectToWorld.size() == 1 ? mesh.name : formatText("{}[{}]", mesh.name, p);
+            objects.push_back({name, true, m, p, &scene.materials[mesh.material]});
+        }
+    }
+    for (size_t p = 0; p < scene.planes.size(); p++)
+        objects.push_back({scene.planes[p].name, false, p, 0, &scene.materials[scene.planes[p].material]});
+    return objects;
+}
+
+namespace {
 
 // The inverse transpose of the upper 3x3 part, column by column.
 glm::dmat3 normalMatrix(const glm::dmat4& m) {
@@ -82,17 +107,12 @@ SurfaceMesh planeMesh(const Plane& plane) {
 
 SurfaceScene buildSurfaces(const Scene& scene, std::vector<std::string>& warnings) {
     SurfaceScene surfaces;
-    for (const Material& material : scene.materials) surfaces.materials.push_back(toSurface(material));
-    for (const SceneLight& light : scene.lights) surfaces.lights.push_back(toSurface(light));
+    for (const Material& material : scene.materials)
+        surfaces.materials.push_back(surfaceMaterialOf(material));
     surfaces.ambient = scene.ambient;
-    if (scene.environment.kind == EnvironmentKind::constant)
-        surfaces.environment.constant = scene.environment.constant;
-    const SinCos rotation = sinCosOfDegrees(scene.environment.rotation_deg);
-    surfaces.environment.cosRotation = rotation.cos;
-    surfaces.environment.sinRotation = rotation.sin;
 
     std::map<std::filesystem::path, uint32_t> meshOfFile;
-    for (const PlanObject& object : planObjects(scene)) {
+    for (const SceneObject& object : sceneObjects(scene)) {
         SurfaceInstance instance;
         if (!object.isMesh) {
             const Plane& plane = scene.planes[object.index];

@@ -59,6 +59,8 @@ ShadeJob shadeJobOf(const VisibleScene& visible, const SurfaceScene& scene,
                     const RasterOptions& options) {
     ShadeJob job;
     job.scene = &scene;
+    job.sources = {&scene.lights, nullptr, &scene.environment.light};
+    job.environment = &scene.environment;
     job.view = &view;
     job.target = &visible.target;
     job.placed = &placed;
@@ -90,7 +92,8 @@ CubeRender renderCubeMap(const SurfaceScene& scene, const std::vector<PlacedMesh
                     only[static_cast<size_t>(face)]);
         ShadeJob job = shadeJobOf(visible, scene, placed, view, profile, options);
         job.environmentCube = environmentCube;
-        const std::unique_ptr<LightVisibility> ofFace =
+        if (request.prepare) request.prepare(job);
+        const std::shared_ptr<const LightVisibility> ofFace =
             request.visibilityOf ? request.visibilityOf(view) : nullptr;
         job.visibility = ofFace ? ofFace.get() : request.visibility;
         TileOcclusion occlusion;
@@ -103,6 +106,7 @@ CubeRender renderCubeMap(const SurfaceScene& scene, const std::vector<PlacedMesh
         ShadedImages images = shade(job);
         cube.radiance.faces[static_cast<size_t>(face)] = std::move(images[ShadeOutput::beauty]);
         cube.distance.faces[static_cast<size_t>(face)] = std::move(images[ShadeOutput::distance]);
+        if (request.progress) request.progress((face + 1.0) / kCubeFaces);
     }
     return cube;
 }

@@ -50,11 +50,13 @@ struct CubeRenderRequest {
     int size = 0;          // texels along a face
     double near_m = 0, far_m = 0;
     uint32_t excluded = kNoInstance;  // an instance that the cube map does not show (the one that it is for)
+    std::function<void(ShadeJob&)> prepare;       // sets what else each face is shaded with
     const LightVisibility* visibility = nullptr;  // as in ShadeJob
     // Where it depends on the view: that of each face, instead.
-    std::function<std::unique_ptr<LightVisibility>(const View&)> visibilityOf;
+    std::function<std::shared_ptr<const LightVisibility>(const View&)> visibilityOf;
     // Of the fragments of each face, from its job; empty: they see all of their surroundings.
     std::function<TileOcclusion(const ShadeJob&)> occlusionOf;
+    std::function<void(double)> progress;  // called with the part of the faces that is done
 };
 
 // Renders the six faces around a point in one call. Mirrors seen in them reflect the environment alone.

@@ -15,8 +15,11 @@ namespace {
 int channelsOf(ShadeOutput output) { return output == ShadeOutput::distance ? 1 : 3; }
 
 void checkJob(const ShadeJob& job) {
-    ETALON_CHECK(job.scene && job.view && job.target && job.placed && job.profile,
+    ETALON_CHECK(job.scene && job.view && job.target && job.placed && job.profile && job.environment &&
+                     job.sources.lights && job.sources.environment,
                  "a part of the job is missing");
+    ETALON_CHECK(!job.sources.shows || job.sources.shows->size() == job.sources.lights->size(),
+                 "{} of {} lights", job.sources.shows->size(), job.sources.lights->size());
     ETALON_CHECK(job.instanceOfDraw.size() == job.target->drawCount &&
                      job.sceneCubes.size() == job.scene->instances.size(),
                  "{} draws of {}, {} cubes of {} instances", job.instanceOfDraw.size(), job.target->drawCount,
@@ -76,12 +79,15 @@ ShadedImages shade(const ShadeJob& job, ShadeStatistics* statistics) {
 
     std::mutex mutex;
     ShadeStatistics total;
+    size_t done = 0;
     forEachTile(job, [&](TileShader& shader, size_t number, const PixelRectangle& rectangle) {
         ShadeStatistics counts;
         shader.run(number, rectangle, images, counts);
         const std::lock_guard lock(mutex);
         total.surfaceFragments += counts.surfaceFragments;
         total.backgroundFragments += counts.backgroundFragments;
+        if (job.progress)
+            job.progress(static_cast<double>(++done) / static_cast<double>(tilesOf(job).count()));
     });
     if (statistics) *statistics = total;
     return images;
@@ -120,7 +126,7 @@ std::vector<VertexRadiance> lightVerticesOf(const ShadeJob& job,
         parallelFor((count + kVerticesPerTask - 1) / kVerticesPerTask, job.threads, [&](size_t task) {
             const size_t begin = task * kVerticesPerTask;
             levelPasses<VertexLightingPasses>().light(
-                *job.profile, *job.scene, material, placed, job.view->eye, begin,
+                *job.profile, job.sources, material, placed, job.view->eye, begin,
                 std::min(kVerticesPerTask, count - begin), occlusion.empty() ? nullptr : &occlusion[i],
                 radiance[i]);
         });

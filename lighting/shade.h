@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -35,11 +36,16 @@ inline constexpr int kRadianceComponents = 5;
 // Which images to make.
 struct ShadeRequest {
     bool wanted[kShadeOutputs] = {};
+    // The radiance components that are evaluated; the others are 0, as images and as parts of the beauty.
+    bool evaluated[kRadianceComponents] = {true, true, true, true, true};
 
     bool& operator[](ShadeOutput o) { return wanted[static_cast<size_t>(o)]; }
     bool operator[](ShadeOutput o) const { return wanted[static_cast<size_t>(o)]; }
-    // True if a radiance component is wanted, for itself or for the beauty.
-    bool needs(ShadeOutput component) const { return (*this)[component] || (*this)[ShadeOutput::beauty]; }
+    // True if a radiance component is evaluated and wanted, for itself or for the beauty.
+    bool needs(ShadeOutput component) const {
+        return evaluated[static_cast<size_t>(component)] &&
+               ((*this)[component] || (*this)[ShadeOutput::beauty]);
+    }
 };
 
 // The images asked for; the others are empty. Radiance images have three channels, resolved over the samples.
@@ -63,7 +69,9 @@ struct ShadeJob {
     const View* view = nullptr;
     const RenderTarget* target = nullptr;
     const std::vector<PlacedMesh>* placed = nullptr;
-    std::vector<uint32_t> instanceOfDraw;             // for each draw of the target
+    std::vector<uint32_t> instanceOfDraw;  // for each draw of the target
+    LightSources sources;
+    const SurfaceEnvironment* environment = nullptr;  // what the background and mirrors of it show
     const CubeMap<float>* environmentCube = nullptr;  // null: mirrors of the environment see its constant
     std::vector<const CubeMap<float>*>
         sceneCubes;  // for each instance: its cube map, or null for the environment
@@ -76,8 +84,13 @@ struct ShadeJob {
     // vertexRadiance, which has its own.
     const TileOcclusion* occlusion = nullptr;
     ShadeRequest request;
+    // Evaluate also those parts of materials that reflect nothing; as far as no product overflows, this
+    // changes no bit.
+    bool everyPart = false;
     const Profile* profile = nullptr;
     int threads = 0, tileSize = 64;
+    // Called with the part of the tiles that is done, by the thread that has done one, one call at a time.
+    std::function<void(double)> progress;
 };
 
 // Shades each visible fragment once, in the profile's fragment arithmetic.

@@ -33,10 +33,13 @@ class TileShaderOf final : public TileShader {
     using Triangles = TileTriangles<T>;
     using Weights = typename Triangles::Weights;
 
-    // Fragments that are shaded by the same texts and constants: their numbers, ascending.
+    // Fragments that are shaded by the same texts and constants: their numbers, ascending. An instance that
+    // reflects the scene has buckets of its own, so that their order is that of the scene, whatever cube maps
+    // the job has (fragmentPoints).
     struct Bucket {
         const SurfaceMaterial* material;
         const CubeMap<float>* cube;
+        uint32_t mirror;  // the instance that reflects the scene, or kNoTriangle
         std::vector<uint32_t> fragments;
         size_t number = 0;  // Group::number of the first one
     };
@@ -72,7 +75,7 @@ class TileShaderOf final : public TileShader {
     void collect(const PixelRectangle& rectangle, bool withPoints);
     void setUpTriangles(bool withPoints);
     void setFaceNormal(size_t number, uint32_t id, const PlacedMesh& placed);
-    size_t bucketOf(const SurfaceMaterial& material, const CubeMap<float>* cube);
+    size_t bucketOf(const SurfaceMaterial& material, const CubeMap<float>* cube, uint32_t mirror);
     void sortIntoBuckets();
     Group groupOf(const Bucket& bucket, size_t first, int count) const;
     struct Parts {
@@ -125,10 +128,10 @@ class TileShaderOf final : public TileShader {
 
 template <class T>
 TileShaderOf<T>::TileShaderOf(const ShadeJob& job)
-    : job_(job), lighting_(*job.scene, samplerOf(*job.profile)), sampler_(samplerOf(*job.profile)) {
+    : job_(job), lighting_(job.sources, samplerOf(*job.profile)), sampler_(samplerOf(*job.profile)) {
     ambient_ = constant(job.scene->ambient);
     eye_ = constant(job.view->eye);
-    buckets_.push_back(Bucket{nullptr, nullptr, {}, 0});
+    buckets_.push_back(Bucket{nullptr, nullptr, kNoTriangle, {}, 0});
     hasOcclusion_ = job.occlusion || (job.vertexRadiance &&
                                       std::ranges::any_of(*job.vertexRadiance, [](const VertexRadiance& of) {
                                           return !of.sides[0].open.empty();
@@ -137,7 +140,9 @@ TileShaderOf<T>::TileShaderOf(const ShadeJob& job)
     if (!job.visibility || job.vertexRadiance ||
         !(request.needs(ShadeOutput::diffuse) || request.needs(ShadeOutput::specular)))
         return;
-    for (size_t l = 0; l < job.scene->lights.size(); l++) casts_.push_back(job.visibility->casts(l));
+    const LightSources& sources = job.sources;
+    for (size_t l = 0; l < sources.lights->size(); l++)
+        casts_.push_back((!sources.shows || (*sources.shows)[l]) && job.visibility->casts(l));
     if (std::find(casts_.begin(), casts_.end(), true) == casts_.end()) casts_.clear();
 }
 
@@ -193,10 +198,14 @@ void TileShaderOf<T>::run(size_t number, const PixelRectangle& rectangle, Shaded
 }
 
 template <class T>
-size_t TileShaderOf<T>::bucketOf(const SurfaceMaterial& material, const CubeMap<float>* cube) {
+size_t TileShaderOf<T>::bucketOf(const SurfaceMaterial& material, const CubeMap<float>* cube,
+                                 uint32_t mirror) {
+    const auto isOf = [&](const Bucket& b) {
+        return b.material == &material && b.cube == cube && b.mirror == mirror;
+    };
     size_t b = 1;
-    while (b < buckets_.size() && !(buckets_[b].material == &material && buckets_[b].cube == cube)) b++;
-    if (b == buckets_.size()) buckets_.push_back(Bucket{&material, cube, {}, 0});
+    while (b < buckets_.size() && !isOf(buckets_[b])) b++;
+    if (b == buckets_.size()) buckets_.push_back(Bucket{&material, cube, mirror, {}, 0});
     return b;
 }
 
@@ -215,8 +224,9 @@ void TileShaderOf<T>::setUpTriangles(bool withPoints) {
         const uint32_t instance = job_.instanceOfDraw[job_.target->triangles[id].draw];
         const CubeMap<float>* cube =
             job_.sceneCubes[instance] ? job_.sceneCubes[instance] : job_.environmentCube;
-        bucketOfTriangle_[i] =
-            bucketOf(job_.scene->materials[job_.scene->instances[instance].material], cube);
+        const SurfaceInstance& object = job_.scene->instances[instance];
+        bucketOfTriangle_[i] = bucketOf(job_.scene->materials[object.material], cube,
+                                        object.reflection == Reflection::scene ? instance : kNoTriangle);
         triangles_.set(i, *job_.target, id, (*job_.placed)[instance]);
         if (withPoints) {
             setFaceNormal(i, id, (*job_.placed)[instance]);
@@ -372,7 +382,7 @@ template <class T>
 void TileShaderOf<T>::shadeBackground(const Group& group) {
     put(ShadeOutput::distance, group, constant(glm::dvec3(std::numeric_limits<double>::infinity())));
     if (!job_.request.needs(ShadeOutput::background)) return;
-    const SurfaceEnvironment& environment = job_.scene->environment;
+    const SurfaceEnvironment& environment = *job_.environment;
     if (environment.latLong.empty()) {
         put(ShadeOutput::background, group, constant(environment.constant));
         put(ShadeOutput::beauty, group, constant(environment.constant));
@@ -404,13 +414,15 @@ void TileShaderOf<T>::shadeSurface(const Bucket& bucket, const Group& group) {
 template <class T>
 typename TileShaderOf<T>::Parts TileShaderOf<T>::partsOf(const SurfaceMaterial& material) const {
     const ShadeRequest& request = job_.request;
-    const bool hasDiffuse = hasDiffusePart(material);
+    const bool every = job_.everyPart;
+    const bool hasDiffuse = every ? hasDiffusePart(material) : reflectsDiffusely(material);
     Parts parts;
     parts.ambient = hasDiffuse && request.needs(ShadeOutput::ambient);
     parts.diffuse = hasDiffuse && lighting_.hasDiffuse() && request.needs(ShadeOutput::diffuse);
-    parts.specular = material.kind == MaterialKind::blinnPhong && lighting_.hasSpecular() &&
-                     request.needs(ShadeOutput::specular);
-    parts.mirror = hasMirrorPart(material) && request.needs(ShadeOutput::mirror);
+    parts.specular = (every ? hasSpecularPart(material) : reflectsSpecularly(material)) &&
+                     lighting_.hasSpecular() && request.needs(ShadeOutput::specular);
+    parts.mirror =
+        (every ? hasMirrorPart(material) : mirrors(material)) && request.needs(ShadeOutput::mirror);
     parts.distance = request[ShadeOutput::distance];
     parts.needNormal = parts.diffuse || parts.specular || parts.mirror || request[ShadeOutput::normals];
     parts.needEye = parts.specular || parts.mirror || parts.distance;
@@ -472,7 +484,7 @@ typename TileShaderOf<T>::vec3 TileShaderOf<T>::albedo(const SurfaceMaterial& ma
 
 template <class T>
 typename TileShaderOf<T>::vec3 TileShaderOf<T>::mirrorRadiance(const Bucket& bucket, vec3 n, vec3 toEye) {
-    const SurfaceEnvironment& environment = job_.scene->environment;
+    const SurfaceEnvironment& environment = *job_.environment;
     if (bucket.cube == nullptr)
         return kernels_.mul3(constant(bucket.material->reflectance), constant(environment.constant));
     vec3 direction = kernels_.mirrorDirection(n, toEye);
@@ -550,7 +562,7 @@ void TileShaderOf<T>::copyFirstSample(ShadeOutput output, const PixelRectangle& 
 
 template <class T>
 typename TileShaderOf<T>::vec3 TileShaderOf<T>::sampleEnvironment(vec3 direction) {
-    const TextureView texture(job_.scene->environment.latLong);
+    const TextureView texture(job_.environment->latLong);
     return kernels_.sampleLatLong(texture, direction,
                                   samplingOf<K>(sampler_, texture.width(), texture.height()));
 }

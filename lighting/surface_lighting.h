@@ -37,15 +37,18 @@ class SurfaceLighting {
         static T visibility(size_t) { return T(1.0); }
     };
 
-    // The lights as T; the scene outlives this. sampler: of maps.
-    SurfaceLighting(const SurfaceScene& scene, const SamplerSettings& sampler)
-        : environment_(scene.environment.light, sampler) {
-        for (const SurfaceLight& light : scene.lights) {
+    // The lights as T; what lights outlives this. sampler: of maps.
+    SurfaceLighting(const LightSources& from, const SamplerSettings& sampler)
+        : environment_(*from.environment, sampler) {
+        for (size_t l = 0; l < from.lights->size(); l++) {
+            if (from.shows && !(*from.shows)[l]) continue;
+            const SurfaceLight& light = (*from.lights)[l];
             const bool isFar = light.kind == LightKind::directional;
             const vec3 power = constant(isFar ? light.irradiance : light.intensity);
             lights_.push_back(
                 {constant(isFar ? light.toLight : light.position_m), power, everyLane(isFinite(power))});
             sources_.push_back(&light);
+            numbers_.push_back(l);
             hasPlaces_ = hasPlaces_ || !isFar;
         }
     }
@@ -68,7 +71,7 @@ class SurfaceLighting {
     }
 
     // surface: diffuse reflectance. Components that are not asked for are 0. shadows.casts(l) says whether
-    // light l is multiplied with shadows.visibility(l). Lights are added in their order, the environment
+    // light l of LightSources::lights is multiplied with shadows.visibility(l). Lights are added in their order, the environment
     // last: its irradiance in the normal or, with surroundings, in the bent normal times what is open.
     template <class Shadows = Unshadowed>
     Reflected reflected(const SurfaceMaterial& material, const Point& point, vec3 surface, bool diffuse,
@@ -79,12 +82,13 @@ class SurfaceLighting {
         // Runs of lights that arrive as they are, and single ones that do not.
         size_t done = 0;
         for (size_t l = 0; l < lights_.size(); l++) {
-            if (sources_[l]->kind == LightKind::directional && !shadows.casts(l)) continue;
+            const bool isCast = shadows.casts(numbers_[l]);
+            if (sources_[l]->kind == LightKind::directional && !isCast) continue;
             addLights(request, std::span(lights_).subspan(done, l - done), sum);
             Light arriving =
                 sources_[l]->kind == LightKind::directional ? lights_[l] : arrivingFrom(l, point);
-            if (shadows.casts(l))
-                arriving.irradiance = kernels_.scale3(arriving.irradiance, shadows.visibility(l));
+            if (isCast)
+                arriving.irradiance = kernels_.scale3(arriving.irradiance, shadows.visibility(numbers_[l]));
             addLights(request, std::span(&arriving, 1), sum);
             done = l + 1;
         }
@@ -171,6 +175,7 @@ class SurfaceLighting {
     EnvironmentLighting<T> environment_;
     std::vector<Light> lights_;
     std::vector<const SurfaceLight*> sources_;
+    std::vector<size_t> numbers_;  // among LightSources::lights
     bool hasPlaces_ = false;
 };
 

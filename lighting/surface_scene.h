@@ -28,12 +28,24 @@ struct SurfaceMaterial {
     double checkerSize_m = 1;
 };
 
-// Whether a material (this one or a scene file's) has a diffuse part, and whether it mirrors.
+// No channel is above 0.
+inline bool isBlack(const glm::dvec3& v) { return !(v.x > 0 || v.y > 0 || v.z > 0); }
+
+// Whether a material (this one or a scene file's) is of a kind that has a diffuse, a specular and a mirror part.
 bool hasDiffusePart(const auto& material) { return material.kind != MaterialKind::mirror; }
+bool hasSpecularPart(const auto& material) { return material.kind == MaterialKind::blinnPhong; }
 bool hasMirrorPart(const auto& material) {
-    const glm::dvec3& r = material.reflectance;
-    return material.kind == MaterialKind::mirror || r.x > 0 || r.y > 0 || r.z > 0;
+    return material.kind == MaterialKind::mirror || !isBlack(material.reflectance);
 }
+// Whether the part reflects anything.
+inline bool reflectsDiffusely(const SurfaceMaterial& material) {
+    return hasDiffusePart(material) &&
+           !(isBlack(material.diffuse) && (!material.checker || isBlack(material.diffuse2)));
+}
+inline bool reflectsSpecularly(const SurfaceMaterial& material) {
+    return hasSpecularPart(material) && !isBlack(material.specular);
+}
+inline bool mirrors(const SurfaceMaterial& material) { return !isBlack(material.reflectance); }
 
 // directional: from infinitely far; point: in all directions from a place; spot: in a cone.
 enum class LightKind : uint8_t { directional, point, spot };
@@ -86,6 +98,13 @@ struct EnvironmentLight {
     SphericalHarmonics harmonics;
     std::vector<glm::dvec3> directions, flux;  // of each texel: unit vector to it, radiance times solid angle
     CubeMap<float> map;                        // three channels
+};
+
+// What lights the points of surfaces, besides the ambient light. The referenced objects outlive this.
+struct LightSources {
+    const std::vector<SurfaceLight>* lights = nullptr;
+    const std::vector<bool>* shows = nullptr;  // for each light whether it is evaluated; null: all are
+    const EnvironmentLight* environment = nullptr;
 };
 
 // Radiance from far away over directions: a lat-long image (OpenEXR convention), or nothing (black).

@@ -8,13 +8,13 @@ namespace etalon {
 namespace {
 
 template <class S>
-void lightIn(const Profile& profile, const SurfaceScene& scene, const SurfaceMaterial& material,
+void lightIn(const Profile& profile, const LightSources& sources, const SurfaceMaterial& material,
              const PlacedMesh& placed, const glm::dvec3& eye, size_t begin, size_t count,
              const VertexOcclusion* occlusion, VertexRadiance& radiance) {
     using T = Native<S>;
     using Lighting = SurfaceLighting<T>;
     using vec3 = typename Lighting::vec3;
-    Lighting lighting(scene, samplerOf(profile));
+    Lighting lighting(sources, samplerOf(profile));
     typename Lighting::K kernels;
     forEachLaneGroup<NumberTraits<T>::lanes>(count, [&](size_t first, int active) {
         const auto vertex = [&](int lane) {
@@ -60,13 +60,13 @@ void lightIn(const Profile& profile, const SurfaceScene& scene, const SurfaceMat
     });
 }
 
-void lightVertices(const Profile& profile, const SurfaceScene& scene, const SurfaceMaterial& material,
+void lightVertices(const Profile& profile, const LightSources& sources, const SurfaceMaterial& material,
                    const PlacedMesh& placed, const glm::dvec3& eye, size_t begin, size_t count,
                    const VertexOcclusion* occlusion, VertexRadiance& radiance) {
     if (profile.vertex == RasterReal::fp32)
-        lightIn<float>(profile, scene, material, placed, eye, begin, count, occlusion, radiance);
+        lightIn<float>(profile, sources, material, placed, eye, begin, count, occlusion, radiance);
     else
-        lightIn<double>(profile, scene, material, placed, eye, begin, count, occlusion, radiance);
+        lightIn<double>(profile, sources, material, placed, eye, begin, count, occlusion, radiance);
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ struct VertexRadiance {
 struct VertexLightingPasses {
     // In the vertex arithmetic of the profile: lights vertices begin .. begin + count - 1 as seen from `eye`;
     // the sides have the size of the mesh. occlusion: of its vertices; null: all are open.
-    void (*light)(const Profile& profile, const SurfaceScene& scene, const SurfaceMaterial& material,
+    void (*light)(const Profile& profile, const LightSources& sources, const SurfaceMaterial& material,
                   const PlacedMesh& placed, const glm::dvec3& eye, size_t begin, size_t count,
                   const VertexOcclusion* occlusion, VertexRadiance& radiance);
 };

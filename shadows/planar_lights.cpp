@@ -32,16 +32,16 @@ std::vector<glm::dvec4> planarLightSamples(const SurfaceLight& light, const Plan
     return lightSamples(disc, settings.samples, settings.seed);
 }
 
-std::vector<PlanarVisibility::Entry> planarShadowsOf(const SurfaceScene& scene,
-                                                     std::span<const PlacedMesh> placed, size_t light,
+std::vector<PlanarVisibility::Entry> planarShadowsOf(const SurfaceLight& light, size_t number,
+                                                     std::span<const PlacedMesh> placed,
                                                      const PlanarLightSettings& settings,
                                                      const std::vector<bool>& receivers,
                                                      const Profile& profile, const RasterOptions& raster) {
     std::vector<PlanarVisibility::Entry> entries;
-    const glm::dvec4 centre = centreOf(scene.lights[light]);
+    const glm::dvec4 centre = centreOf(light);
     if (!(std::isfinite(centre.x) && std::isfinite(centre.y) && std::isfinite(centre.z))) return entries;
     PlanarLightSettings own = settings;
-    own.seed = Random(settings.seed + light).next();
+    own.seed = Random(settings.seed + number).next();
     PlanarShadowOptions options;
     options.resolution = settings.resolution;
     options.blurSigma_m = settings.blurSigma_m;
@@ -57,12 +57,11 @@ std::vector<PlanarVisibility::Entry> planarShadowsOf(const SurfaceScene& scene,
         const glm::dvec2 lowest = receiver->lowest_m(), highest = receiver->highest_m();
         const glm::dvec3 middle =
             receiver->frame.toWorld((lowest.x + highest.x) / 2, (lowest.y + highest.y) / 2);
-        PlanarShadow shadow =
-            planarShadow(*receiver, casters, planarLightSamples(scene.lights[light], own, middle), options,
-                         profile, raster);
+        PlanarShadow shadow = planarShadow(*receiver, casters, planarLightSamples(light, own, middle),
+                                           options, profile, raster);
         const auto texels = shadow.shadow.values();
         if (std::any_of(texels.begin(), texels.end(), [](float v) { return v > 0; }))
-            entries.push_back({light, static_cast<uint32_t>(i), std::move(shadow)});
+            entries.push_back({number, static_cast<uint32_t>(i), std::move(shadow)});
     }
     return entries;
 }

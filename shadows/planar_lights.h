@@ -24,10 +24,10 @@ std::vector<glm::dvec4> planarLightSamples(const SurfaceLight& light, const Plan
 
 // The shadows that a light's casters, all other instances, throw on each instance that is a plane
 // (planarReceiverOf) and marked in `receivers`, on the side that the light's centre is on; empty: all. Those
-// without any shadow are left out. Each light's samples have their own numbers, from the seed and the light's
-// index. A light whose numbers are not finite has none.
-std::vector<PlanarVisibility::Entry> planarShadowsOf(const SurfaceScene& scene,
-                                                     std::span<const PlacedMesh> placed, size_t light,
+// without any shadow are left out. number: of the light; its samples have their own random numbers, from the
+// seed and it. A light whose numbers are not finite has none.
+std::vector<PlanarVisibility::Entry> planarShadowsOf(const SurfaceLight& light, size_t number,
+                                                     std::span<const PlacedMesh> placed,
                                                      const PlanarLightSettings& settings,
                                                      const std::vector<bool>& receivers,
                                                      const Profile& profile, const RasterOptions& raster);

@@ -107,10 +107,11 @@ Image<uint32_t> visibleInstances(const VisibleScene& visible) {
 
 VolumeShadows::VolumeShadows(const SurfaceScene& scene, const std::vector<PlacedMesh>& placed,
                              const View& view, const Profile& profile, const VolumeShadowOptions& options,
-                             const RasterOptions& raster)
-    : lit_(scene.lights.size()) {
-    ETALON_CHECK(!options.casters || options.casters->size() == scene.lights.size(), "{} lights of {}",
-                 options.casters ? options.casters->size() : 0, scene.lights.size());
+                             const RasterOptions& raster) {
+    const std::vector<SurfaceLight>& lights = options.lights ? *options.lights : scene.lights;
+    lit_.resize(lights.size());
+    ETALON_CHECK(!options.casters || options.casters->size() == lights.size(), "{} lights of {}",
+                 options.casters ? options.casters->size() : 0, lights.size());
     const View infinite = withInfiniteFar(view);
     VisibleScene visible =
         findVisible(scene, placed, infinite, profile, options.samples, raster, options.excluded);
@@ -134,9 +135,9 @@ VolumeShadows::VolumeShadows(const SurfaceScene& scene, const std::vector<Placed
     std::vector<uint32_t> all(placed.size());
     std::iota(all.begin(), all.end(), 0u);
 
-    for (size_t l = 0; l < scene.lights.size(); l++) {
+    for (size_t l = 0; l < lights.size(); l++) {
         const std::vector<uint32_t>& casters = options.casters ? (*options.casters)[l] : all;
-        const LightSource light = lightSourceOf(scene.lights[l]);
+        const LightSource light = lightSourceOf(lights[l]);
         std::vector<DrawnVolume> volumes(casters.size());
         std::vector<Draw> draws;
         for (size_t c = 0; c < casters.size(); c++) {

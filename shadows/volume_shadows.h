@@ -21,6 +21,7 @@ enum class VolumeCounting : uint8_t { zFail, zPass };
 
 struct VolumeShadowOptions {
     VolumeCounting counting = VolumeCounting::zFail;
+    const std::vector<SurfaceLight>* lights = nullptr;  // null: those of the scene
     // For each light the instances that cast its shadows, each once; none: it has no shadows. Not given: all.
     std::optional<std::vector<std::vector<uint32_t>>> casters;
     uint32_t excluded = kNoInstance;  // an instance that the view does not show; it may cast

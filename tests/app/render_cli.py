@@ -3,6 +3,7 @@
 import json
 import os
 import pathlib
+import pty
 import resource
 import shutil
 import signal
@@ -73,7 +74,50 @@ class Render(CliCase):
     def test_json_says_what_ran(self):
         report = json.loads(self.expect(0, "render", self.scene(), "-o", "a.exr", "--json").stdout)
         self.assertEqual(report["width"], 64)
-        self.assertIn("visibility", report["passes"])
+        passes = {p["name"]: p for p in report["passes"]}
+        self.assertTrue(passes["visibility"]["runs"])
+        self.assertGreater(passes["visibility"]["memory_bytes"], 0)
+        self.assertGreaterEqual(passes["shading"]["seconds"], 0)
+        self.assertEqual(passes["shading"]["arithmetic"], "fp32")
+        self.assertFalse(passes["mirror"]["runs"])
+        self.assertIsNone(passes["mirror"]["seconds"])
+        self.assertLessEqual(sum(p["seconds"] or 0 for p in passes.values()), report["seconds"])
+        self.assertEqual(report["memory_bytes"], sum(p["memory_bytes"] for p in passes.values() if p["runs"]))
+
+    def test_timings_have_a_line_for_each_pass_that_ran(self):
+        text = self.expect(0, "render", self.scene(), "-o", "a.exr", "--timings").stdout
+        names = [line.split("MiB", 1)[1].strip() for line in text.splitlines()[1:]]
+        self.assertIn("shading", names)
+        self.assertNotIn("mirror", names)
+        self.expect(2, "render", "scene.toml", "-o", "a.exr", "--timings", "--json")
+
+    def test_everything_changes_no_bit(self):
+        self.expect(0, "render", self.scene(), "-o", "a.exr")
+        report = json.loads(self.expect(0, "render", "scene.toml", "-o", "b.exr", "--everything", "--json").stdout)
+        self.assertTrue(all(p["runs"] for p in report["passes"]))
+        self.assertEqual((self.folder / "a.exr").read_bytes(), (self.folder / "b.exr").read_bytes())
+
+    def test_progress_shows_on_a_terminal_after_a_second(self):
+        def shown(width):
+            master, terminal = pty.openpty()
+            self.scene(width=width, height=width, more="[render]\nsamples = 16\n")
+            process = subprocess.Popen([self.program, "render", "scene.toml", "-o", "a.exr", "--threads", "1"],
+                                       cwd=self.folder, stdout=subprocess.DEVNULL, stderr=terminal)
+            os.close(terminal)
+            text = b""
+            try:
+                while piece := os.read(master, 4096):
+                    text += piece
+            except OSError:
+                pass  # the other side is closed
+            os.close(master)
+            self.assertEqual(process.wait(), 0)
+            return text.decode()
+
+        self.assertEqual(shown(16), "")
+        text = shown(4000)
+        self.assertRegex(text, r"shading \(\d+ of \d+\): \d+ %, \d+ s left")
+        self.assertTrue(text.endswith("\x1b[K"))
 
     def test_plan_as_text_json_and_graph(self):
         self.scene()

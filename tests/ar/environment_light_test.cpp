@@ -36,6 +36,14 @@ Environment environmentOf(EnvironmentLightMethod lighting) {
     return environment;
 }
 
+void addEnvironmentLight(const Environment& environment, const Profile& profile, int threads,
+                         SurfaceScene& scene) {
+    EnvironmentIllumination illumination =
+        environmentIllumination(environment, scene.environment, profile, threads);
+    for (const ProbeLight& light : illumination.lights) scene.lights.push_back(surfaceLightOf(light));
+    scene.environment.light = std::move(illumination.diffuse);
+}
+
 glm::dvec3 irradianceOf(const SurfaceScene& scene, const glm::dvec3& n) {
     EnvironmentLighting<double> lighting(scene.environment.light, {});
     glm::dvec3 sum = lighting.irradiance(n);

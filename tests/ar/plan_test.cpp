@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "ar/surface_builder.h"
+
 using namespace etalon;
 
 namespace {
@@ -39,6 +41,9 @@ Scene bareScene() {
     Scene scene;
     scene.camera.width = 64;
     scene.camera.height = 48;
+    scene.camera.intrinsics = {60, 60, 32, 24};
+    scene.camera.near = 0.1;
+    scene.camera.far = 10;
     scene.materials = {lambertMaterial()};
     scene.meshes = {meshOf("thing", 0)};
     scene.output.images = {"beauty"};
@@ -50,6 +55,7 @@ Scene fullScene() {
     Scene scene = bareScene();
     Material gloss = lambertMaterial();
     gloss.kind = MaterialKind::blinnPhong;
+    gloss.specular = glm::dvec3(0.2);
     scene.materials.push_back(gloss);
     scene.materials.push_back(mirrorMaterial());
     scene.meshes.push_back(meshOf("glossy", 1));
@@ -57,6 +63,7 @@ Scene fullScene() {
     scene.meshes.back().reflection = Reflection::scene;
     scene.meshes.push_back(meshOf("plate", 2));
     scene.lights.emplace_back();
+    scene.lights[0].irradiance = glm::dvec3(1);
     scene.ambient = glm::dvec3(0.1);
     scene.environment.kind = EnvironmentKind::file;
     return scene;
@@ -64,23 +71,52 @@ Scene fullScene() {
 
 std::set<std::string> running(const Plan& plan) {
     std::set<std::string> names;
-    for (const PlanPass& pass : plan.passes)
-        if (pass.runs) names.insert(pass.name);
+    for (const Pass& pass : plan.passes)
+        if (pass.runs) names.insert(pass.name());
     return names;
+}
+
+RenderOptions asking(std::vector<std::string> outputs, bool png = false) {
+    RenderOptions options;
+    options.request = {std::move(outputs), png};
+    return options;
+}
+
+// Of a plan that knows what is visible.
+PlanFacts seeing(std::vector<bool> objects, bool background = true) {
+    PlanFacts facts;
+    facts.visibility = VisibilityFacts{std::move(objects), background};
+    return facts;
+}
+PlanFacts seeingAll(const Scene& scene) {
+    return seeing(std::vector<bool>(sceneObjects(scene).size(), true));
+}
+
+bool needs(const Plan& plan, std::string_view pass, std::string_view need) {
+    return std::ranges::count(namesOfNeeds(plan, *plan.find(pass)), need) == 1;
+}
+
+const Pass& passOf(const Plan& plan, std::string_view name) {
+    REQUIRE_MESSAGE(plan.find(name), name);
+    return *plan.find(name);
 }
 
 }  // namespace
 
 TEST_CASE("OnlyTheNeededPassesRun") {
-    CHECK(running(makePlan(bareScene(), {})) == std::set<std::string>{"geometry", "visibility", "beauty"});
+    // A scene without light is black.
+    CHECK(running(makePlan(bareScene(), {})) == std::set<std::string>{"geometry", "visibility", "frame"});
     const std::set<std::string> all{"geometry",
                                     "visibility",
+                                    "lights",
                                     "ambient",
                                     "diffuse",
                                     "specular",
                                     "mirror",
                                     "background",
                                     "beauty",
+                                    "shading",
+                                    "frame",
                                     "cube map of ball",
                                     "environment image",
                                     "environment cube map"};
@@ -88,12 +124,12 @@ TEST_CASE("OnlyTheNeededPassesRun") {
 }
 
 TEST_CASE("AnEffectThatNoOutputNeedsAddsNoPass") {
-    PlanRequest request;
-    request.outputs = {"depth", "ids", "normals"};
-    CHECK(running(makePlan(fullScene(), request)) == running(makePlan(bareScene(), request)));
-    const Plan plan = makePlan(fullScene(), request);
-    CHECK_FALSE(plan.readEnvironment);
-    CHECK_FALSE(plan.environmentCube);
+    const RenderOptions options = asking({"depth", "ids", "normals"});
+    CHECK(running(makePlan(fullScene(), options)) == running(makePlan(bareScene(), options)));
+    const Plan plan = makePlan(fullScene(), options);
+    CHECK_FALSE(passOf(plan, "environment image").runs);
+    CHECK_FALSE(passOf(plan, "environment cube map").runs);
+    CHECK_FALSE(passOf(makePlan(fullScene(), asking({"depth"})), "shading").runs);
 }
 
 TEST_CASE("EachEffectsPassesVanishWhenNothingNeedsThem") {
@@ -103,7 +139,7 @@ TEST_CASE("EachEffectsPassesVanishWhenNothingNeedsThem") {
         std::set<std::string> gone;
     };
     const Case cases[] = {
-        {"lights", [](Scene& s) { s.lights.clear(); }, {"diffuse", "specular"}},
+        {"lights", [](Scene& s) { s.lights.clear(); }, {"lights", "diffuse", "specular"}},
         {"ambient", [](Scene& s) { s.ambient = glm::dvec3(0); }, {"ambient"}},
         {"gloss", [](Scene& s) { s.meshes.erase(s.meshes.begin() + 1); }, {"specular"}},
         {"ball", [](Scene& s) { s.meshes.erase(s.meshes.begin() + 2); }, {"cube map of ball"}},
@@ -129,37 +165,145 @@ TEST_CASE("EachEffectsPassesVanishWhenNothingNeedsThem") {
     }
 }
 
+// Each with its reason.
+TEST_CASE("WhatIsBlackDoesNotRun") {
+    struct Case {
+        void (*darken)(Scene&);
+        const char *pass, *reason;
+    };
+    const Case cases[] = {
+        {[](Scene& s) { s.lights[0].irradiance = glm::dvec3(0); }, "diffuse", "every light is black"},
+        {[](Scene& s) { s.lights[0].irradiance = glm::dvec3(0); }, "specular", "every light is black"},
+        {[](Scene& s) {
+             for (Material& m : s.materials) m.diffuse = glm::dvec3(0);
+         },
+         "ambient", "the diffuse reflectance of each diffuse surface is 0"},
+        {[](Scene& s) {
+             for (Material& m : s.materials) m.diffuse = glm::dvec3(0);
+         },
+         "diffuse", "the diffuse reflectance of each diffuse surface is 0"},
+        {[](Scene& s) { s.materials[1].specular = glm::dvec3(0); }, "specular",
+         "the specular reflectance of each blinn_phong surface is 0"},
+        {[](Scene& s) { s.materials[2].reflectance = glm::dvec3(0); }, "mirror",
+         "the reflectance of each mirror is 0"},
+        {[](Scene& s) { s.materials[2].reflectance = glm::dvec3(0); }, "cube map of ball",
+         "its mirror is black"},
+        {[](Scene& s) { s.environment.kind = EnvironmentKind::constant; }, "background",
+         "the environment is black"},
+        {[](Scene& s) {
+             s.environment.kind = EnvironmentKind::constant;
+             s.environment.lighting = EnvironmentLightMethod::exact;
+         },
+         "environment light", "the environment is black"},
+        {[](Scene& s) {
+             s.environment.kind = EnvironmentKind::none;
+             s.meshes[2].reflection = Reflection::environment;
+         },
+         "mirror", "the environment that mirrors show is black"},
+        {[](Scene& s) {
+             s.environment.kind = EnvironmentKind::none;
+             s.lights.clear();
+             s.ambient = glm::dvec3(0);
+         },
+         "mirror", "nothing in the scene shines"},
+        {[](Scene& s) {
+             s.environment.kind = EnvironmentKind::none;
+             s.lights.clear();
+             s.ambient = glm::dvec3(0);
+         },
+         "beauty", "every part of it is black"},
+        {[](Scene& s) {
+             s.environment.kind = EnvironmentKind::none;
+             s.lights.clear();
+             s.ambient = glm::dvec3(0);
+         },
+         "shading", "all that it would show is black"},
+    };
+    for (const Case& c : cases) {
+        Scene scene = fullScene();
+        scene.environment.lighting = EnvironmentLightMethod::exact;
+        CHECK_MESSAGE(passOf(makePlan(scene, {}), c.pass).runs, c.pass);
+        scene.environment.lighting = EnvironmentLightMethod::none;
+        c.darken(scene);
+        const Plan plan = makePlan(scene, {});
+        const Pass& pass = passOf(plan, c.pass);
+        CHECK_FALSE_MESSAGE(pass.runs, c.pass);
+        CHECK(pass.reason == c.reason);
+    }
+    // One square of a checkerboard is enough.
+    Scene scene = fullScene();
+    scene.materials[0].diffuse = scene.materials[1].diffuse = glm::dvec3(0);
+    scene.materials[0].checker = Checker{glm::dvec3(0.5), 1};
+    CHECK(passOf(makePlan(scene, {}), "diffuse").runs);
+}
+
 TEST_CASE("HiddenObjectsNeedNoPasses") {
     const Scene scene = fullScene();
-    VisibilityFacts facts;
-    facts.backgroundVisible = false;
-    facts.objectVisible = {true, false, false, false};
-    const Plan plan = makePlan(scene, {}, &facts);
-    CHECK(running(plan) == std::set<std::string>{"geometry", "visibility", "ambient", "diffuse", "beauty"});
-    CHECK(plan.find("mirror")->reason == "no mirror is visible");
-    CHECK(plan.find("background")->reason == "objects cover every pixel");
+    const Plan plan = makePlan(scene, {}, seeing({true, false, false, false}, false));
+    CHECK(running(plan) == std::set<std::string>{"geometry", "visibility", "lights", "ambient", "diffuse",
+                                                 "beauty", "shading", "frame"});
+    CHECK(passOf(plan, "mirror").reason == "no mirror is visible");
+    CHECK(passOf(plan, "background").reason == "objects cover every pixel");
+    CHECK(passOf(plan, "cube map of ball").reason == "its mirror is not visible");
     // A visible mirror without a cube map does not call for that of a hidden one.
-    facts.objectVisible = {false, false, false, true};
-    CHECK(makePlan(scene, {}, &facts).find("mirror")->runs);
-    for (const bool cube : makePlan(scene, {}, &facts).objectCube) CHECK_FALSE(cube);
+    const Plan plate = makePlan(scene, {}, seeing({false, false, false, true}, false));
+    CHECK(passOf(plate, "mirror").runs);
+    CHECK_FALSE(passOf(plate, "cube map of ball").runs);
     // A mirror that only a cube map sees still needs the environment.
-    facts.objectVisible = {true, false, true, false};
-    CHECK(makePlan(scene, {}, &facts).environmentCube);
+    CHECK(
+        passOf(makePlan(scene, {}, seeing({true, false, true, false}, false)), "environment cube map").runs);
     // So does the background that only a cube map sees.
     Scene noPlate = fullScene();
     noPlate.meshes.resize(3);
-    facts.objectVisible = {false, false, true};
-    CHECK_FALSE(makePlan(noPlate, {}, &facts).environmentCube);
-    CHECK(makePlan(noPlate, {}, &facts).readEnvironment);
+    const Plan ball = makePlan(noPlate, {}, seeing({false, false, true}, false));
+    CHECK_FALSE(passOf(ball, "environment cube map").runs);
+    CHECK(passOf(ball, "environment image").runs);
+}
+
+// Mirrors in a cube map show the environment, also those that have cube maps themselves.
+TEST_CASE("MirrorsThatShowEachOtherNeedTheEnvironmentsCubeMap") {
+    Scene scene = fullScene();
+    scene.meshes.back().reflection = Reflection::scene;
+    const Plan plan = makePlan(scene, {}, seeingAll(scene));
+    CHECK(passOf(plan, "environment cube map").runs);
+    CHECK(needs(plan, "cube map of ball", "environment cube map"));
+    CHECK(needs(plan, "cube map of plate", "environment cube map"));
+    CHECK_FALSE(needs(plan, "mirror", "environment cube map"));
 }
 
 TEST_CASE("APngNeedsTheBeautyWhateverTheOutputsAre") {
-    PlanRequest request;
-    request.outputs = {"depth"};
-    request.png = true;
-    const Plan plan = makePlan(bareScene(), request);
-    CHECK(plan.find("beauty")->runs);
-    CHECK(plan.find("tone mapping")->runs);
+    const Plan plan = makePlan(fullScene(), asking({"depth"}, true));
+    for (const char* name : {"beauty", "shading", "tone mapping"}) CHECK(passOf(plan, name).runs);
+    CHECK(passOf(plan, "beauty").reason == "the PNG shows it");
+    CHECK_FALSE(passOf(makePlan(fullScene(), asking({"depth"})), "tone mapping").runs);
+}
+
+TEST_CASE("BeforeVisibilityThePlanSaysWhatDependsOnIt") {
+    const Scene scene = fullScene();
+    const Plan first = makePlan(scene, {});
+    for (const char* name : {"ambient", "diffuse", "mirror", "background", "beauty", "shading",
+                             "cube map of ball", "environment image", "environment cube map"})
+        CHECK_MESSAGE(passOf(first, name).dependsOn == "visibility", name);
+    for (const char* name : {"geometry", "visibility", "frame", "normals"})
+        CHECK_MESSAGE(passOf(first, name).dependsOn.empty(), name);
+    CHECK(planText(first).find("part of the beauty (depends on visibility)") != std::string::npos);
+    for (const Pass& pass : makePlan(scene, {}, seeingAll(scene)).passes)
+        CHECK_MESSAGE(pass.dependsOn.empty(), pass.name());
+    // Depth is an output whatever is visible; what the beauty needs beside it is not sure.
+    const Plan depth = makePlan(scene, asking({"depth", "normals"}));
+    for (const char* name : {"depth", "normals", "shading"}) CHECK(passOf(depth, name).dependsOn.empty());
+}
+
+// More knowledge only ends passes, or puts those of the environment's lights in.
+TEST_CASE("KnowledgeStartsNoPass") {
+    const Scene scene = fullScene();
+    const std::set<std::string> first = running(makePlan(scene, {}));
+    for (int mask = 0; mask < 32; mask++) {
+        std::vector<bool> objects;
+        for (int i = 0; i < 4; i++) objects.push_back((mask >> i & 1) != 0);
+        for (const std::string& name : running(makePlan(scene, {}, seeing(objects, mask >= 16))))
+            CHECK_MESSAGE(first.count(name) == 1, name);
+    }
 }
 
 TEST_CASE("ShadowsRunForLightsThatNeedThem") {
@@ -169,47 +313,35 @@ TEST_CASE("ShadowsRunForLightsThatNeedThem") {
     scene.lights[0].shadow.method = ShadowMethod::map;
     scene.lights[2].shadow.method = ShadowMethod::volume;
     scene.lights[3].shadow.method = ShadowMethod::planar;
-    const auto runningShadows = [](const Plan& plan) {
-        std::vector<bool> found;
-        for (const PlanShadow& shadow : plan.shadows) found.push_back(shadow.runs);
-        return found;
-    };
+    const char* const kShadows[] = {"shadow map of light0", "shadow volumes of light2",
+                                    "planar shadows of light3"};
     // Without geometry anything may cast.
     const Plan first = makePlan(scene, {});
-    CHECK(runningShadows(first) == std::vector<bool>{true, true, true});
-    CHECK(first.shadows[1].index == 2);
     CHECK(first.find("shadow map of light1") == nullptr);
-    for (const char* need : {"shadow map of light0", "shadow volumes of light2", "planar shadows of light3"})
-        CHECK(std::ranges::count(first.find("diffuse")->needs, need) == 1);
-    // With it, what casts, or what shadows fall on, is named.
-    VisibilityFacts facts;
-    facts.objectVisible.assign(planObjects(scene).size(), true);
-    facts.shadowObjects = {{0, 2}, {2}, {3}};
-    const Plan plan = makePlan(scene, {}, &facts);
-    CHECK(runningShadows(plan) == std::vector<bool>{true, true, true});
-    CHECK(plan.find("shadow map of light0")->reason == "cast by thing, ball");
-    CHECK(plan.find("shadow volumes of light2")->reason == "cast by ball");
-    CHECK(plan.find("planar shadows of light3")->reason == "fall on plate");
-    CHECK(plan.memory_bytes == first.memory_bytes);
-    facts.shadowObjects = {{}, {}, {}};
-    const Plan nothing = makePlan(scene, {}, &facts);
-    CHECK(runningShadows(nothing) == std::vector<bool>{false, false, false});
-    for (const char* name : {"shadow map of light0", "shadow volumes of light2"})
-        CHECK(nothing.find(name)->reason == "nothing stands between the light and what is visible");
-    CHECK(nothing.find("planar shadows of light3")->reason == "no shadow falls on a plane that is visible");
-    CHECK(nothing.memory_bytes == makePlan(fullScene(), {}).memory_bytes);
-    for (size_t light : {0, 2, 3}) {
+    for (const char* shadow : kShadows) {
+        CHECK(passOf(first, shadow).runs);
+        CHECK(passOf(first, shadow).reason == "objects may stand in the light's way");
+        CHECK(needs(first, "shadows in view", shadow));
+        CHECK(needs(first, "cube map of ball", shadow));
+    }
+    CHECK(needs(first, "diffuse", "shadows in view"));
+    CHECK(needs(first, "specular", "shadows in view"));
+    for (const size_t light : {0u, 2u, 3u}) {
         Scene one = fullScene();
         one.lights = {scene.lights[light]};
-        CHECK(makePlan(one, {}).memory_bytes > nothing.memory_bytes);
+        CHECK(makePlan(one, {}).memory_bytes() > makePlan(fullScene(), {}).memory_bytes());
     }
     // Mirrors and the background have no shadows.
-    PlanRequest request;
-    request.outputs = {"normals"};
-    CHECK(makePlan(scene, request).find("shadow map of light0")->reason ==
+    CHECK(passOf(makePlan(scene, asking({"normals"})), "shadow map of light0").reason ==
           "neither diffuse nor specular runs");
     scene.lights[0].irradiance = glm::dvec3(0);
-    CHECK(makePlan(scene, {}).find("shadow map of light0")->reason == "the light is black");
+    CHECK(passOf(makePlan(scene, {}), "shadow map of light0").reason == "the light is black");
+    // Vertices are lit without shadows; cube maps are not.
+    scene.render.perVertex = true;
+    CHECK(makePlan(scene, {}).find("shadows in view") == nullptr);
+    CHECK(passOf(makePlan(scene, {}), "shadow volumes of light2").runs);
+    scene.meshes[2].reflection = Reflection::environment;
+    CHECK(passOf(makePlan(scene, {}), "shadow volumes of light2").reason == "the scene is lit per vertex");
 }
 
 TEST_CASE("LightsOfAnEnvironmentThatCastAreNamed") {
@@ -217,37 +349,30 @@ TEST_CASE("LightsOfAnEnvironmentThatCastAreNamed") {
     scene.environment.lighting = EnvironmentLightMethod::lights;
     scene.environment.shadow.method = ShadowMethod::map;
     scene.environment.shadowLights = 3;
-    const uint64_t without_bytes = makePlan(fullScene(), {}).memory_bytes;
+    const uint64_t without_bytes = makePlan(fullScene(), {}).memory_bytes();
     const uint64_t map_bytes = uint64_t{1024} * 1024 * (9 + 16);
     // Before the lights are known there is room for as many as are asked for.
-    const Plan first = makePlan(scene, {});
-    CHECK(first.find("shadows of environment lights")->runs);
-    CHECK(first.shadows.empty());
-    CHECK(first.memory_bytes == without_bytes + 3 * map_bytes);
-
+    const Plan first = makePlan(scene, {}, seeingAll(scene));
+    CHECK(passOf(first, "shadows of environment lights").runs);
+    CHECK(passOf(first, "shadows of environment lights").dependsOn == "environment light");
+    CHECK(first.memory_bytes() == without_bytes + 3 * map_bytes);
     scene.environment.lightCount = 2;
-    CHECK(makePlan(scene, {}).memory_bytes == without_bytes + 2 * map_bytes);
+    CHECK(makePlan(scene, {}).memory_bytes() == without_bytes + 2 * map_bytes);
 
-    VisibilityFacts facts;
-    facts.objectVisible.assign(planObjects(scene).size(), true);
-    facts.environmentCasters = {{7, 0.0125, 0.25}, {2, 0.5, 0.125}};
-    facts.shadowObjects = {{0}, {}};
-    const Plan plan = makePlan(scene, {}, &facts);
-    REQUIRE(plan.shadows.size() == 2);
-    CHECK(plan.shadows[0].index == scene.lights.size() + 7);
-    CHECK(plan.shadows[0].shadow == &scene.environment.shadow);
-    CHECK(plan.find("shadow map of environment light 7")->reason ==
-          "region of 0.0125 sr, 25 % of the energy; cast by thing");
-    CHECK(plan.find("shadow map of environment light 2")->reason ==
-          "region of 0.5 sr, 12.5 % of the energy; nothing stands between the light and what is visible");
-    CHECK(plan.memory_bytes == without_bytes + map_bytes);
-    facts.environmentCasters.emplace();
-    facts.shadowObjects.emplace();
-    CHECK(makePlan(scene, {}, &facts).find("shadows of environment lights")->reason == "it has no lights");
+    PlanFacts facts = seeingAll(scene);
+    facts.casters = {{7, 0.0125, 0.25, {}}, {2, 0.5, 0.125, {}}};
+    const Plan plan = makePlan(scene, {}, facts);
+    CHECK(passOf(plan, "shadow map of environment light 7").reason ==
+          "region of 0.0125 sr, 25 % of the energy; objects may stand in the light's way");
+    CHECK(passOf(plan, "shadow map of environment light 2").reason ==
+          "region of 0.5 sr, 12.5 % of the energy; objects may stand in the light's way");
+    CHECK(plan.find("shadows of environment lights") == nullptr);
+    CHECK(needs(plan, "lights", "environment light"));
+    CHECK(plan.memory_bytes() == without_bytes + 2 * map_bytes);
+    facts.casters->clear();
+    CHECK(passOf(makePlan(scene, {}, facts), "shadows of environment lights").reason == "it has no lights");
     // What lights nothing casts no shadows.
-    PlanRequest request;
-    request.outputs = {"background"};
-    CHECK_FALSE(makePlan(scene, request).find("shadows of environment lights")->runs);
+    CHECK_FALSE(passOf(makePlan(scene, asking({"background"})), "shadows of environment lights").runs);
 }
 
 TEST_CASE("OcclusionRunsForLightFromEverywhere") {
@@ -255,43 +380,57 @@ TEST_CASE("OcclusionRunsForLightFromEverywhere") {
     CHECK(makePlan(scene, {}).find("ambient occlusion") == nullptr);
     scene.render.occlusionDirections = 64;
     const Plan plan = makePlan(scene, {});
-    CHECK(plan.occlusion);
-    CHECK(std::ranges::count(plan.find("ambient")->needs, "ambient occlusion") == 1);
-    CHECK(std::ranges::count(plan.find("diffuse")->needs, "ambient occlusion") == 0);
-    CHECK(plan.memory_bytes > makePlan(fullScene(), {}).memory_bytes);
+    CHECK(needs(plan, "ambient", "ambient occlusion"));
+    CHECK_FALSE(needs(plan, "diffuse", "ambient occlusion"));
+    CHECK(plan.memory_bytes() > makePlan(fullScene(), {}).memory_bytes());
     // The environment's light is, its lights are not.
     scene.ambient = glm::dvec3(0);
-    CHECK_FALSE(makePlan(scene, {}).occlusion);
+    CHECK_FALSE(passOf(makePlan(scene, {}), "ambient occlusion").runs);
     for (const auto& [method, runs] : {std::pair(EnvironmentLightMethod::lights, false),
                                        std::pair(EnvironmentLightMethod::dominant, false),
                                        std::pair(EnvironmentLightMethod::harmonics, true),
                                        std::pair(EnvironmentLightMethod::exact, true)}) {
         scene.environment.lighting = method;
         const Plan lit = makePlan(scene, {});
-        CHECK(lit.occlusion == runs);
-        CHECK((std::ranges::count(lit.find("diffuse")->needs, "ambient occlusion") == 1) == runs);
+        CHECK(passOf(lit, "ambient occlusion").runs == runs);
+        CHECK(needs(lit, "diffuse", "ambient occlusion") == runs);
     }
-    PlanRequest request;
-    request.outputs = {"specular", "depth"};
-    CHECK(makePlan(scene, request).find("ambient occlusion")->reason ==
+    CHECK(passOf(makePlan(scene, asking({"specular", "depth"})), "ambient occlusion").reason ==
           "nothing that runs is lit from everywhere");
 }
 
-TEST_CASE("EveryPassHasAReasonAndNeedsPassesOfThePlan") {
+TEST_CASE("EverythingRunsAllPassesAndSaysWhyTheyWouldNot") {
+    RenderOptions options = asking({"depth"});
+    options.everything = true;
+    const Plan plan = makePlan(fullScene(), options);
+    for (const Pass& pass : plan.passes) CHECK_MESSAGE(pass.runs, pass.name());
+    CHECK(passOf(plan, "depth").reason == "output asked for");
+    CHECK(passOf(plan, "diffuse").reason == "everything runs; else not: no output shows it");
+}
+
+TEST_CASE("EveryPassHasAReasonAndReadsPassesThatRun") {
     Scene occluded = fullScene();
     occluded.render.occlusionDirections = 64;
     occluded.render.perVertex = true;
     for (const Scene& scene : {bareScene(), fullScene(), occluded}) {
         const Plan plan = makePlan(scene, {});
-        for (const PlanPass& pass : plan.passes) {
+        for (size_t i = 0; i < plan.passes.size(); i++) {
+            const Pass& pass = plan.passes[i];
             CHECK_FALSE(pass.reason.empty());
-            for (const std::string& need : pass.needs) {
-                REQUIRE_MESSAGE(plan.find(need) != nullptr, need);
-                if (pass.runs) CHECK_MESSAGE(plan.find(need)->runs, pass.name << " needs " << need);
-            }
+            CHECK(plan.find(pass.name()) == &pass);
+            for (const size_t need : pass.needs) CHECK(need < i);
+            // What is left out of what a running pass could read shows nothing.
+            for (const size_t need : pass.needs)
+                if (pass.runs && !plan.passes[need].runs) CHECK_FALSE(plan.passes[need].text.nothing.empty());
         }
         const auto json = nlohmann::json::parse(planJson(plan));
-        CHECK(json["passes"].size() == plan.passes.size());
+        REQUIRE(json["passes"].size() == plan.passes.size());
+        for (const auto& pass : json["passes"])
+            for (const char* key :
+                 {"name", "runs", "reason", "depends_on", "needs", "arithmetic", "memory_bytes", "seconds"})
+                CHECK_MESSAGE(pass.contains(key), key);
+        CHECK(json["passes"][0]["arithmetic"] == "fp32");
+        CHECK(json["passes"][0]["seconds"].is_null());
         CHECK(planText(plan).find("run   visibility") != std::string::npos);
         CHECK(planDot(plan).find("\"visibility\" -> ") != std::string::npos);
     }
@@ -308,9 +447,10 @@ TEST_CASE("PlanTextHasOneLineAPass") {
 
 TEST_CASE("MemoryGrowsWithPixelsAndSamples") {
     Scene scene = bareScene();
-    const uint64_t small = makePlan(scene, {}).memory_bytes;
+    scene.ambient = glm::dvec3(1);
+    const uint64_t small = makePlan(scene, {}).memory_bytes();
     scene.camera.width *= 2;
-    CHECK(makePlan(scene, {}).memory_bytes == 2 * small);
+    CHECK(makePlan(scene, {}).memory_bytes() == 2 * small);
     scene.render.samples = 16;
-    CHECK(makePlan(scene, {}).memory_bytes > 4 * small);
+    CHECK(makePlan(scene, {}).memory_bytes() > 3 * small);
 }

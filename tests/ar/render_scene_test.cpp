@@ -155,8 +155,7 @@ TEST_CASE("LightsOfAnEnvironmentCastShadows") {
     // By their part of the energy: 16 lights of about the same.
     scene.environment.shadowShare = 0.5;
     CHECK(sameBits(withMethod(scene, shadow, ShadowMethod::volume), none));
-    const Plan plan = planScene(scene, {});
-    CHECK(plan.find("shadows of environment lights")->reason ==
+    CHECK(renderScene(scene, {}).plan.find("shadows of environment lights")->reason ==
           "no light has so large a share of its energy");
 }
 
@@ -229,7 +228,8 @@ TEST_CASE("NegativeAndNaNRadianceIsClampedAndCountedOrRefused") {
     const RenderResult result = renderScene(scene, {});
     REQUIRE(result.warnings.size() == 1);
     CHECK(result.warnings[0].find("3 negative and 6 non-finite values were set to 0") != std::string::npos);
-    for (const float value : result.beauty.values()) CHECK((value >= 0 && value < 10));
+    for (size_t c = 0; c < 3; c++)
+        for (const float value : valuesOf(result.frame, c)) CHECK((value >= 0 && value < 10));
     RenderOptions strict;
     strict.strict = true;
     CHECK_THROWS_AS(renderScene(scene, strict), InputError);
@@ -247,4 +247,119 @@ TEST_CASE("ImagesThatNeedMoreMemoryThanThereIsAreRefusedBeforeTheWork") {
         CHECK(text.find("GiB") != std::string::npos);
         CHECK(text.find("minimal.toml:") != std::string::npos);
     }
+}
+
+// A plane alone: nothing can occlude it.
+TEST_CASE("OcclusionDoesNotRunWhereNothingCanOcclude") {
+    Scene scene = loadScene("golden/scenes/environment_occlusion.toml");
+    scene.meshes.clear();
+    scene.environment.kind = EnvironmentKind::none;
+    const auto occlusionOf = [](const Scene& of) {
+        return *renderScene(of, {}).plan.find("ambient occlusion");
+    };
+    CHECK_FALSE(occlusionOf(scene).runs);
+    CHECK(occlusionOf(scene).reason == "nothing can occlude what is visible");
+    CHECK(planScene(scene, {}).find("ambient occlusion")->reason == "nothing can occlude what is visible");
+    // A second plane below it changes nothing, one above it does.
+    scene.planes.push_back(scene.planes[0]);
+    scene.planes[1].name = "second";
+    scene.planes[1].point.y -= 1;
+    CHECK_FALSE(occlusionOf(scene).runs);
+    scene.planes[1].point.y += 1.5;
+    scene.planes[1].normal = -scene.planes[1].normal;
+    scene.planes[1].v = -scene.planes[1].v;
+    CHECK(occlusionOf(scene).runs);
+}
+
+TEST_CASE("ShadowsOfLightsBehindAllThatIsVisibleDoNotRun") {
+    Scene scene = loadScene("golden/scenes/shadows.toml");
+    scene.meshes.clear();
+    scene.planes.resize(1);
+    scene.planes.push_back(scene.planes[0]);
+    scene.planes[1].name = "cellar";
+    scene.planes[1].point.y -= 1;
+    scene.lights.resize(1);
+    SceneLight& light = scene.lights[0];
+    light.kind = LightKind::directional;
+    light.irradiance = glm::dvec3(1);
+    light.direction = {0, 1, 0};
+    light.shadow.method = ShadowMethod::map;
+    const Plan plan = renderScene(scene, {}).plan;
+    CHECK_FALSE(plan.find("shadow map of light0")->runs);
+    CHECK(plan.find("shadow map of light0")->reason == "the light is behind all that is visible");
+    CHECK(plan.find("diffuse")->reason == "the lights are behind each diffuse surface");
+    light.direction = {0, -1, 0};
+    CHECK(renderScene(scene, {}).plan.find("diffuse")->runs);
+}
+
+// Which outputs are asked for changes no bit of the others, with shadows that are fitted to what they fall on.
+TEST_CASE("ShadowsDoNotDependOnTheOutputs") {
+    Scene scene = loadScene("golden/scenes/shadows.toml");
+    scene.output.images = {"diffuse"};
+    const Frame alone = frameOf(scene);
+    scene.output.images = {"diffuse", "mirror", "beauty"};
+    const Frame many = frameOf(scene);
+    for (const Channel& channel : alone.channels)
+        CHECK(std::get<Image<float>>(many.find(channel.name)->values) ==
+              std::get<Image<float>>(channel.values));
+}
+
+// Two mirrors that show the scene: each shows the environment in the other, which a white one makes white.
+TEST_CASE("MirrorsShowTheEnvironmentInEachOther") {
+    const test::ScratchFolder folder;
+    Frame probe;
+    probe.width = 8;
+    probe.height = 4;
+    for (const char* name : {"R", "G", "B"}) {
+        Image<float> plane(8, 4);
+        plane.fill(1);
+        probe.channels.push_back({name, plane});
+    }
+    writeExr(probe, folder / "white.exr");
+    Scene scene = loadScene("scenes/minimal.toml");
+    scene.planes.clear();
+    scene.lights.clear();
+    scene.ambient = glm::dvec3(0);
+    Material mirror;
+    mirror.kind = MaterialKind::mirror;
+    mirror.reflectance = glm::dvec3(1);
+    scene.materials = {mirror};
+    scene.meshes.resize(1);
+    MeshObject ball = scene.meshes[0];
+    ball.material = 0;
+    ball.reflection = Reflection::scene;
+    ball.cubeSize = 16;
+    ball.objectToWorld = {translation({-0.8, 0, 0})};
+    scene.meshes = {ball, ball};
+    scene.meshes[1].name = "other";
+    scene.meshes[1].objectToWorld = {translation({0.8, 0, 0})};
+    scene.environment.kind = EnvironmentKind::file;
+    scene.environment.file = folder / "white.exr";
+    scene.output.images = {"beauty", "mirror", "ids"};
+    const RenderResult result = renderScene(scene, {});
+    CHECK(result.plan.find("cube map of other")->runs);
+    for (size_t c = 0; c < 3; c++)
+        for (const float value : valuesOf(result.frame, c)) CHECK(value == doctest::Approx(1).epsilon(1e-5));
+}
+
+TEST_CASE("APlanRunsNothingButTheGeometry") {
+    const Scene scene = loadScene("scenes/stress.toml");
+    RenderOptions options;
+    std::vector<std::string> run;
+    options.progress = [&](const RenderProgress& at) {
+        if (at.part == 0) run.push_back(at.plan->passes[at.pass].name());
+    };
+    const Plan plan = planScene(scene, options);
+    CHECK(run == std::vector<std::string>{"geometry"});
+    for (const Pass& pass : plan.passes) CHECK(pass.isDone == (pass.name() == "geometry"));
+    // A render runs what it says, and the plan that it leaves is that which ran.
+    run.clear();
+    const RenderResult result = renderScene(scene, options);
+    std::vector<std::string> expected;
+    for (const Pass& pass : result.plan.passes) {
+        CHECK(pass.isDone);
+        if (pass.runs) expected.push_back(pass.name());
+        CHECK(pass.dependsOn.empty());
+    }
+    CHECK(run == expected);
 }

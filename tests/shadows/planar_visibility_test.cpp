@@ -232,7 +232,7 @@ TEST_CASE("LightsOfASceneCastOnItsPlanes") {
     settings.lightSize_m = 0.2;
     settings.tangentOfHalfAngle = 0.05;
     const auto shadowsOf = [&](size_t light, const std::vector<bool>& receivers) {
-        return planarShadowsOf(scene, placed, light, settings, receivers, profile, {1, 64});
+        return planarShadowsOf(scene.lights[light], light, placed, settings, receivers, profile, {1, 64});
     };
     const auto lamp = shadowsOf(0, {});
     const auto at = [](const PlanarShadow& shadow, const glm::dvec3& p) {

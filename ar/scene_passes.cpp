@@ -1,0 +1,286 @@
+#include "ar/scene_passes.h"
+
+#include <algorithm>
+
+#include "ar/surface_builder.h"
+#include "lighting/tone_map.h"
+#include "numeric/text.h"
+#include "raster/depth.h"
+#include "raster/rules.h"
+#include "shadows/joint_visibility.h"
+#include "shadows/planar_lights.h"
+#include "shadows/shadow_maps.h"
+#include "shadows/surface_occlusion.h"
+#include "shadows/volume_shadows.h"
+
+namespace etalon {
+namespace {
+
+DirectionalOptions occlusionOptions(const SceneSettings& settings) {
+    const Render& render = settings.scene->render;
+    return {render.occlusionDirections, render.occlusionMapSize, settings.raster};
+}
+
+ShadeJob viewJob(const SceneSettings& settings, const PassContext& context, const Geometry& geometry,
+                 const VisibleView& visible) {
+    ShadeJob job = shadeJobOf(*visible.scene, geometry.surfaces, geometry.placed, settings.view,
+                              context.profile, settings.raster);
+    job.environment = &settings.environment;
+    job.everyPart = settings.everything;
+    return job;
+}
+
+// The channels of an image that shading makes; 0 where it has made none.
+void addPlanes(Frame& frame, const Image<float>& image, const std::vector<std::string>& names) {
+    for (size_t c = 0; c < names.size(); c++) {
+        Image<float> plane(frame.width, frame.height);
+        if (!image.empty()) std::ranges::copy(image.plane(static_cast<int>(c)), plane.values().begin());
+        frame.channels.push_back({names[c], std::move(plane)});
+    }
+}
+
+struct ShadedOutput {
+    std::string_view name;
+    ShadeOutput image;
+    std::vector<std::string> channels;
+};
+const std::vector<ShadedOutput>& shadedOutputs() {
+    const auto colour = [](const std::string& layer) {
+        return std::vector<std::string>{layer + "R", layer + "G", layer + "B"};
+    };
+    static const std::vector<ShadedOutput> outputs = {
+        {"beauty", ShadeOutput::beauty, colour("")},
+        {"distance", ShadeOutput::distance, {"distance"}},
+        {"normals", ShadeOutput::normals, {"N.X", "N.Y", "N.Z"}},
+        {"diffuse", ShadeOutput::diffuse, colour("diffuse.")},
+        {"specular", ShadeOutput::specular, colour("specular.")},
+        {"mirror", ShadeOutput::mirror, colour("mirror.")},
+        {"background", ShadeOutput::background, colour("background.")},
+        {"ambient", ShadeOutput::ambient, colour("ambient.")},
+    };
+    return outputs;
+}
+
+}  // namespace
+
+LightSources sourcesOf(const SceneLights& lights, const EnvironmentIllumination& environment) {
+    return {&lights.lights(), &lights.shows(), &environment.diffuse};
+}
+
+std::string nameOf(const LightId& light) {
+    return light.of == LightId::Of::scene ? formatText("light{}", light.index)
+                                          : formatText("environment light {}", light.index);
+}
+
+void SceneLights::addScene(const Scene& scene, const std::vector<bool>& shows) {
+    for (const SceneLight& light : scene.lights) {
+        shows_.push_back(shows[ofScene_.size()]);
+        ofScene_.push_back(lights_.size());
+        lights_.push_back(surfaceLightOf(light));
+    }
+}
+void SceneLights::addEnvironment(const std::vector<ProbeLight>& lights) {
+    for (const ProbeLight& light : lights) {
+        shows_.push_back(true);
+        ofEnvironment_.push_back(lights_.size());
+        lights_.push_back(surfaceLightOf(light));
+    }
+}
+size_t SceneLights::numberOf(const LightId& light) const {
+    return (light.of == LightId::Of::scene ? ofScene_ : ofEnvironment_).at(light.index);
+}
+
+Geometry placeGeometry(const SceneSettings& settings, const PassContext& context) {
+    Geometry geometry;
+    geometry.surfaces = buildSurfaces(*settings.scene, geometry.warnings);
+    geometry.placed = placeMeshes(geometry.surfaces, context.profile.vertex, settings.raster.threads);
+    return geometry;
+}
+
+VisibleView findVisibleInView(const SceneSettings& settings, const PassContext& context,
+                              const Geometry& geometry) {
+    VisibleView visible;
+    visible.scene.emplace(findVisible(geometry.surfaces, geometry.placed, settings.view, context.profile,
+                                      settings.scene->render.samples, settings.raster));
+    return visible;
+}
+
+OutputChannels depthChannels(const VisibleView& visible) {
+    const RenderTarget& target = visible.scene->target;
+    Image<float> depth(target.width(), target.height());
+    for (size_t i = 0; i < depth.pixelCount(); i++)
+        depth.values()[i] =
+            static_cast<float>(depthFromStored(target.format.depth, target.depth.plane(0)[i]));
+    return {"depth", {{"Z", std::move(depth)}}};
+}
+
+OutputChannels idChannels(const VisibleView& visible) {
+    const RenderTarget& target = visible.scene->target;
+    Image<uint32_t> objects(target.width(), target.height()), triangles(target.width(), target.height());
+    for (size_t i = 0; i < objects.pixelCount(); i++) {
+        const uint32_t id = target.id.plane(0)[i];
+        if (id == kNoTriangle) continue;
+        objects.values()[i] = visible.scene->instanceOfDraw[target.triangles[id].draw] + 1;
+        triangles.values()[i] = target.triangles[id].triangle;
+    }
+    return {"ids", {{"id.object", std::move(objects)}, {"id.triangle", std::move(triangles)}}};
+}
+
+OutputChannels coverageChannels(const VisibleView& visible) {
+    const Image<uint32_t>& id = visible.scene->target.id;
+    Image<float> coverage(id.width(), id.height());
+    for (size_t i = 0; i < coverage.pixelCount(); i++) {
+        int covered = 0;
+        for (int s = 0; s < id.channels(); s++) covered += id.plane(s)[i] != kNoTriangle ? 1 : 0;
+        coverage.values()[i] = static_cast<float>(covered) / static_cast<float>(id.channels());
+    }
+    return {"coverage", {{"coverage", std::move(coverage)}}};
+}
+
+CastShadow castByMap(const SceneSettings& settings, const PassContext& context, const Geometry& geometry,
+                     const SceneLights& lights, const LightId& light, const ShadowFit& fit,
+                     const ShadowMapSettings& map) {
+    ShadowMapSettings seeded = map;
+    seeded.seed = settings.scene->render.seed;
+    const auto maps = std::make_shared<ShadowMaps>(lights.lights().size());
+    maps->set(
+        lights.numberOf(light),
+        renderShadowMap(geometry.surfaces, geometry.placed, fit, seeded, context.profile, settings.raster),
+        context.profile, settings.raster.threads);
+    return {maps, {}, {}};
+}
+
+CastShadow castByVolumes(const SceneLights& lights, const LightId& light, std::vector<uint32_t> casters) {
+    return {nullptr, CastShadow::Volume{lights.numberOf(light), std::move(casters)}, {}};
+}
+
+CastShadow castOnPlanes(const SceneSettings& settings, const PassContext& context, const Geometry& geometry,
+                        const SceneLights& lights, const LightId& light, const std::vector<bool>& receivers,
+                        const PlanarLightSettings& planar) {
+    PlanarLightSettings seeded = planar;
+    seeded.seed = settings.scene->render.seed;
+    const size_t number = lights.numberOf(light);
+    std::vector<PlanarVisibility::Entry> entries =
+        planarShadowsOf(lights.lights()[number], number, geometry.placed, seeded, receivers, context.profile,
+                        settings.raster);
+    CastShadow cast;
+    const std::vector<SceneObject> objects = sceneObjects(*settings.scene);
+    for (const PlanarVisibility::Entry& entry : entries) cast.fallsOn.push_back(objects[entry.instance].name);
+    if (!entries.empty())
+        cast.visibility = std::make_shared<PlanarVisibility>(std::move(entries), context.profile);
+    return cast;
+}
+
+ViewShadows shadowsOfView(const SceneSettings& settings, const PassContext& context, const Geometry& geometry,
+                          const SceneLights& lights, const std::vector<const CastShadow*>& shadows,
+                          const View& view, int samples, uint32_t excluded) {
+    JointVisibility::Ways ways;
+    std::vector<std::vector<uint32_t>> casters;
+    for (const CastShadow* shadow : shadows) {
+        if (shadow->visibility) ways.push_back(shadow->visibility);
+        if (!shadow->volume) continue;
+        casters.resize(lights.lights().size());
+        casters[shadow->volume->light] = shadow->volume->casters;
+    }
+    if (!casters.empty()) {
+        VolumeShadowOptions options;
+        options.lights = &lights.lights();
+        options.samples = samples;
+        options.excluded = excluded;
+        options.casters = std::move(casters);
+        ways.push_back(std::make_shared<VolumeShadows>(geometry.surfaces, geometry.placed, view,
+                                                       context.profile, options, settings.raster));
+    }
+    if (ways.empty()) return {};
+    return {std::make_shared<JointVisibility>(std::move(ways))};
+}
+
+SurfaceOcclusion occlusionInView(const SceneSettings& settings, const PassContext& context,
+                                 const Geometry& geometry, const VisibleView& visible) {
+    const ShadeJob job = viewJob(settings, context, geometry, visible);
+    if (settings.scene->render.perVertex) return {{}, vertexOcclusion(job, occlusionOptions(settings))};
+    return {fragmentOcclusion(job, occlusionOptions(settings)), {}};
+}
+
+std::vector<VertexRadiance> lightVertices(const SceneSettings& settings, const PassContext& context,
+                                          const Geometry& geometry, const VisibleView& visible,
+                                          const SceneLights& lights,
+                                          const EnvironmentIllumination& environment,
+                                          const SurfaceOcclusion& occlusion) {
+    ShadeJob job = viewJob(settings, context, geometry, visible);
+    job.sources = sourcesOf(lights, environment);
+    return lightVerticesOf(job, occlusion.vertices);
+}
+
+CubeRender renderObjectCube(const SceneSettings& settings, const PassContext& context, uint32_t instance,
+                            bool hasOcclusion, const Geometry& geometry, const SceneLights& lights,
+                            const EnvironmentImage& image, const EnvironmentIllumination& environment,
+                            const std::optional<CubeMap<float>>& environmentCube,
+                            const std::vector<const CastShadow*>& shadows) {
+    const SurfaceInstance& object = geometry.surfaces.instances[instance];
+    CubeRenderRequest request;
+    request.centre = object.cubeCentre_m;
+    request.size = object.cubeSize;
+    request.near_m = settings.scene->camera.near;
+    request.far_m = settings.scene->camera.far;
+    request.excluded = instance;
+    request.prepare = [&](ShadeJob& job) {
+        job.sources = sourcesOf(lights, environment);
+        job.environment = &image.radiance;
+        job.everyPart = settings.everything;
+    };
+    request.visibilityOf = [&](const View& face) {
+        return shadowsOfView(settings, context, geometry, lights, shadows, face, 1, instance).visibility;
+    };
+    if (hasOcclusion)
+        request.occlusionOf = [&](const ShadeJob& face) {
+            return fragmentOcclusion(face, occlusionOptions(settings));
+        };
+    request.progress = context.progress;
+    return renderCubeMap(geometry.surfaces, geometry.placed, request,
+                         environmentCube ? &*environmentCube : nullptr, context.profile, settings.raster);
+}
+
+Shading shadeView(const SceneSettings& settings, const PassContext& context, const Geometry& geometry,
+                  const VisibleView& visible, const std::vector<const ShadeTerm*>& terms) {
+    ShadeJob job = viewJob(settings, context, geometry, visible);
+    std::ranges::fill(job.request.evaluated, false);
+    for (const ShadeTerm* term : terms)
+        if (term->addTo) term->addTo(job);
+    job.progress = context.progress;
+    Shading shading;
+    shading.images = shade(job, &shading.statistics);
+    return shading;
+}
+
+Frame frameOf(const SceneSettings& settings, const PassContext& context,
+              const std::vector<std::string>& outputs, const std::vector<const OutputChannels*>& made,
+              const Shading& shading) {
+    Frame frame;
+    frame.width = settings.view.width;
+    frame.height = settings.view.height;
+    frame.metadata = {{"etalon.scene", settings.scene->file.filename().string()},
+                      {"etalon.profile", std::string(context.profile.name)},
+                      {"etalon.rules", std::to_string(kRulesVersion)}};
+    for (const std::string_view name : kOutputNames) {
+        if (std::ranges::find(outputs, name) == outputs.end()) continue;
+        for (const OutputChannels* output : made)
+            if (output->output == name)
+                frame.channels.insert(frame.channels.end(), output->channels.begin(), output->channels.end());
+        for (const ShadedOutput& output : shadedOutputs())
+            if (output.name == name) addPlanes(frame, shading.images[output.image], output.channels);
+    }
+    return frame;
+}
+
+Image<uint8_t> toneMapped(const SceneSettings& settings, const Shading& shading) {
+    const Output& output = settings.scene->output;
+    const ToneMap map = output.toneMap == "reinhard" ? ToneMap::reinhard
+                        : output.toneMap == "filmic" ? ToneMap::filmic
+                                                     : ToneMap::linear;
+    const Image<float>& beauty = shading.images[ShadeOutput::beauty];
+    return toneMap(beauty.empty() ? Image<float>(settings.view.width, settings.view.height, 3) : beauty, map,
+                   output.exposure, settings.raster.threads);
+}
+
+}  // namespace etalon

@@ -1,0 +1,167 @@
+// What the passes of a scene yield, and how they run. The plan (plan.h) says when.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ar/environment_light.h"
+#include "ar/frame.h"
+#include "ar/pass.h"
+#include "ar/scene.h"
+#include "lighting/light_visibility.h"
+#include "lighting/occlusion.h"
+#include "lighting/render_view.h"
+#include "shadows/shadow_map.h"
+
+namespace etalon {
+
+// The scene's objects, placed.
+struct Geometry {
+    SurfaceScene surfaces;  // without lights and environment
+    std::vector<PlacedMesh> placed;
+    std::vector<std::string> warnings;
+};
+
+// What the camera sees.
+struct VisibleView {
+    std::optional<VisibleScene> scene;
+};
+
+struct EnvironmentImage {
+    SurfaceEnvironment radiance;
+    std::vector<std::string> warnings;
+};
+
+// A light of a scene: of its file, or of what its environment is cut into.
+struct LightId {
+    enum class Of : uint8_t { scene, environment };
+    Of of = Of::scene;
+    size_t index = 0;  // among those
+};
+// "light0", "environment light 3".
+std::string nameOf(const LightId& light);
+
+// All lights, in the order in which they are added up.
+class SceneLights {
+  public:
+    // shows: whether each light of the scene can show; those that cannot are not evaluated.
+    void addScene(const Scene& scene, const std::vector<bool>& shows);
+    void addEnvironment(const std::vector<ProbeLight>& lights);
+
+    const std::vector<SurfaceLight>& lights() const { return lights_; }
+    const std::vector<bool>& shows() const { return shows_; }
+    // Of a light, in both.
+    size_t numberOf(const LightId& light) const;
+
+  private:
+    std::vector<SurfaceLight> lights_;
+    std::vector<bool> shows_;
+    std::vector<size_t> ofScene_, ofEnvironment_;
+};
+
+LightSources sourcesOf(const SceneLights& lights, const EnvironmentIllumination& environment);
+
+// What stands in the way of one light.
+struct CastShadow {
+    std::shared_ptr<const LightVisibility> visibility;  // in every view; null: nothing, or volumes
+    struct Volume {
+        size_t light = 0;  // its number
+        std::vector<uint32_t> casters;
+    };
+    std::optional<Volume> volume;
+    std::vector<std::string> fallsOn;  // the objects that planar shadows fall on
+};
+
+// What stands in the way of the lights in one view; null: nothing.
+struct ViewShadows {
+    std::shared_ptr<const LightVisibility> visibility;
+};
+
+// What surfaces see of their surroundings: at fragments, or at vertices. Both empty: everything.
+struct SurfaceOcclusion {
+    TileOcclusion fragments;
+    std::vector<VertexOcclusion> vertices;
+};
+
+// One part of what shading makes: it asks the job for its image, and lends it what the part reads.
+struct ShadeTerm {
+    std::function<void(ShadeJob&)> addTo;  // empty: nothing
+};
+
+struct Shading {
+    ShadedImages images;
+    ShadeStatistics statistics;
+};
+
+// The channels of an output (of kOutputNames).
+struct OutputChannels {
+    std::string_view output;
+    std::vector<Channel> channels;
+};
+
+// What every pass of a scene runs with.
+struct SceneSettings {
+    const Scene* scene = nullptr;
+    View view;                       // of the camera
+    SurfaceEnvironment environment;  // its rotation, and its constant radiance
+    RasterOptions raster;            // threads and tile size; change no bit
+    bool strict = false;             // questionable input is an error
+    bool everything = false;         // evaluate also what cannot show
+};
+
+Geometry placeGeometry(const SceneSettings& settings, const PassContext& context);
+VisibleView findVisibleInView(const SceneSettings& settings, const PassContext& context,
+                              const Geometry& geometry);
+
+// Sample 0 as it is stored, on the scale 0 (near) to 1 (far).
+OutputChannels depthChannels(const VisibleView& visible);
+// Sample 0: the object (1 for the first; 0: nothing) and its triangle (from 0).
+OutputChannels idChannels(const VisibleView& visible);
+// The fraction of a pixel's samples that objects cover.
+OutputChannels coverageChannels(const VisibleView& visible);
+
+// The map of the light, or its volumes' casters. casters: what it is fitted to.
+CastShadow castByMap(const SceneSettings& settings, const PassContext& context, const Geometry& geometry,
+                     const SceneLights& lights, const LightId& light, const ShadowFit& fit,
+                     const ShadowMapSettings& map);
+CastShadow castByVolumes(const SceneLights& lights, const LightId& light, std::vector<uint32_t> casters);
+CastShadow castOnPlanes(const SceneSettings& settings, const PassContext& context, const Geometry& geometry,
+                        const SceneLights& lights, const LightId& light, const std::vector<bool>& receivers,
+                        const PlanarLightSettings& planar);
+// Together, with the volumes of one view. excluded: an instance that the view does not show, or kNoInstance.
+ViewShadows shadowsOfView(const SceneSettings& settings, const PassContext& context, const Geometry& geometry,
+                          const SceneLights& lights, const std::vector<const CastShadow*>& shadows,
+                          const View& view, int samples, uint32_t excluded);
+
+SurfaceOcclusion occlusionInView(const SceneSettings& settings, const PassContext& context,
+                                 const Geometry& geometry, const VisibleView& visible);
+
+std::vector<VertexRadiance> lightVertices(const SceneSettings& settings, const PassContext& context,
+                                          const Geometry& geometry, const VisibleView& visible,
+                                          const SceneLights& lights,
+                                          const EnvironmentIllumination& environment,
+                                          const SurfaceOcclusion& occlusion);
+
+// The cube map around an instance. hasOcclusion: its faces are shaded with what they see of their surroundings.
+CubeRender renderObjectCube(const SceneSettings& settings, const PassContext& context, uint32_t instance,
+                            bool hasOcclusion, const Geometry& geometry, const SceneLights& lights,
+                            const EnvironmentImage& image, const EnvironmentIllumination& environment,
+                            const std::optional<CubeMap<float>>& environmentCube,
+                            const std::vector<const CastShadow*>& shadows);
+
+Shading shadeView(const SceneSettings& settings, const PassContext& context, const Geometry& geometry,
+                  const VisibleView& visible, const std::vector<const ShadeTerm*>& terms);
+
+// The outputs in the order of kOutputNames: those that are made, and of shading; what shading has not made is 0.
+Frame frameOf(const SceneSettings& settings, const PassContext& context,
+              const std::vector<std::string>& outputs, const std::vector<const OutputChannels*>& made,
+              const Shading& shading);
+
+// The tone mapped beauty as a PNG holds it.
+Image<uint8_t> toneMapped(const SceneSettings& settings, const Shading& shading);
+
+}  // namespace etalon

@@ -1,0 +1,108 @@
+#include "shadows/reach.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace etalon {
+namespace {
+
+constexpr double kRoundings = 64;
+
+double dot(const glm::dvec3& a, const glm::dvec3& b) { return a.x * b.x + (a.y * b.y + a.z * b.z); }
+double length(const glm::dvec3& a) { return std::sqrt(dot(a, a)); }
+double largestOf(const glm::dvec3& a) { return std::max({std::fabs(a.x), std::fabs(a.y), std::fabs(a.z)}); }
+
+// Whether the normals of a triangle's corners, at any of its points, may turn to the light.
+bool isReached(const PlacedMesh& placed, const uint32_t* corners, const SurfaceLight& light,
+               double rounding) {
+    for (int i = 0; i < 3; i++) {
+        const glm::dvec3& n = placed.normals[corners[i]];
+        const double part = rounding * length(n);
+        if (light.kind == LightKind::directional) {
+            if (!(dot(n, light.toLight) < -part * length(light.toLight))) return true;
+            continue;
+        }
+        for (int k = 0; k < 3; k++) {
+            const glm::dvec3& p = placed.positions[corners[k]];
+            const double extent = largestOf(p) + largestOf(light.position_m);
+            if (!(dot(n, light.position_m - p) < -part * extent)) return true;
+        }
+    }
+    return false;
+}
+
+struct Bounds {
+    glm::dvec3 low{HUGE_VAL}, high{-HUGE_VAL};
+    double largest = 0;
+
+    explicit Bounds(std::span<const PlacedMesh> placed) {
+        for (const PlacedMesh& mesh : placed)
+            for (const glm::dvec3& p : mesh.positions) {
+                if (!(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z))) continue;
+                for (int k = 0; k < 3; k++)
+                    low[k] = std::min(low[k], p[k]), high[k] = std::max(high[k], p[k]);
+                largest = std::max(largest, largestOf(p));
+            }
+    }
+    double radius() const { return low.x <= high.x ? length(high - low) / 2 : 0; }
+};
+
+}  // namespace
+
+int significandBitsOf(const Arithmetic& arithmetic) {
+    constexpr int kDoubleBits = 53;
+    switch (arithmetic.type) {
+        case NumberType::fp32:
+            return kFp32.significandBits;
+        case NumberType::emulated:
+            return arithmetic.format.significandBits;
+        case NumberType::fp64:
+        case NumberType::truth:
+            break;
+    }
+    return kDoubleBits;
+}
+
+bool lightReaches(const PlacedMesh& placed, bool twoSided, const SurfaceLight& light, int significandBits) {
+    if (twoSided) return true;
+    const double rounding = std::ldexp(kRoundings, -significandBits);
+    const std::vector<uint32_t>& indices = placed.mesh->indices;
+    for (size_t first = 0; first + 2 < indices.size(); first += 3)
+        if (isReached(placed, &indices[first], light, rounding)) return true;
+    return false;
+}
+
+bool isAllOpen(std::span<const PlacedMesh> placed, std::span<const SurfaceInstance> instances,
+               const std::vector<bool>& marked, int mapSize, int significandBits) {
+    constexpr double kPartOfTexel = 1.0 / 64;
+    const Bounds bounds(placed);
+    const double radius_m = bounds.radius();
+    if (!(radius_m > 0)) return true;
+    const double tolerance_m = 2 * radius_m / mapSize * kPartOfTexel;
+    if (!(std::ldexp(kRoundings, -significandBits) * std::max(bounds.largest, 2 * radius_m) <
+          4 * tolerance_m))
+        return false;
+    const double tilt = tolerance_m / (2 * radius_m);
+    for (size_t i = 0; i < placed.size(); i++) {
+        if (!marked[i] || placed[i].mesh->indices.empty()) continue;
+        const PlacedMesh& mesh = placed[i];
+        const uint32_t first = mesh.mesh->indices[0];
+        const glm::dvec3 normal = mesh.normals[first] / length(mesh.normals[first]);
+        for (const uint32_t v : mesh.mesh->indices) {
+            const double size = length(mesh.normals[v]);
+            const glm::dvec3 d = mesh.normals[v] / size - normal;
+            if (!(largestOf(d) <= tilt)) return false;
+            if (!(std::fabs(dot(normal, mesh.positions[v] - mesh.positions[first])) <= tolerance_m))
+                return false;
+        }
+        for (const PlacedMesh& other : placed)
+            for (const glm::dvec3& p : other.positions) {
+                const double height_m = dot(normal, p - mesh.positions[first]);
+                if (height_m > tolerance_m || (instances[i].twoSided && height_m < -tolerance_m))
+                    return false;
+            }
+    }
+    return true;
+}
+
+}  // namespace etalon
