@@ -174,7 +174,8 @@ void printGrace(const std::filesystem::path& path) {
 
 int run(int argc, char** argv) {
     if (argc < 2 || argc > 3) {
-        printText(stderr, "usage: etalon_experiment_irradiance FOLDER_OF_PICTURES [FOLDER_OF_PAPER_DATA]\n");
+        etalon::printText(stderr,
+                          "usage: etalon_experiment_irradiance FOLDER_OF_PICTURES [FOLDER_OF_PAPER_DATA]\n");
         return 2;
     }
     const std::vector<NamedProbe> probes = fetchedProbes();
@@ -193,7 +194,7 @@ int main(int argc, char** argv) {
     try {
         return etalon::experiments::run(argc, argv);
     } catch (const std::exception& error) {
-        printText(stderr, "etalon_experiment_irradiance: {}\n", error.what());
+        etalon::printText(stderr, "etalon_experiment_irradiance: {}\n", error.what());
         return 2;
     }
 }

@@ -255,21 +255,21 @@ glm::dvec3 meanOf(const Probe& probe, const Arithmetics& arithmetics) {
     Image<double> weighted(width, height, 3), energy(width, height);
     std::copy(probe.radiance[0].values().begin(), probe.radiance[0].values().end(),
               weighted.values().begin());
-    weighted = passes(input).roundedValues(weighted, 0);
+    weighted = passes(input)->roundedValues(weighted, 0);
     const std::vector<double> weights = texelWeights(width, height, cut.weight);
     for (int y = 0; y < height; y++)
         for (int x = 0; x < width; x++) {
             for (int c = 0; c < 3; c++) weighted.at(x, y, c) *= weights[static_cast<size_t>(y)];
             energy.at(x, y) = energyOf({weighted.at(x, y, 0), weighted.at(x, y, 1), weighted.at(x, y, 2)});
         }
-    const EnergyTable cuts(passes(table).summedArea(energy, 0));
+    const EnergyTable cuts(passes(table)->summedArea(energy, 0));
     const std::vector<TexelRegion> regions = medianCutRegions(cuts, cut);
     std::vector<ProbeLight> lights = lightsOfRegions(probe, cuts, regions, cut).lights;
     for (int c = 0; c < 3; c++) {
-        const EnergyTable sums(passes(energies).summedArea(channelOf(weighted, c), 0));
+        const EnergyTable sums(passes(energies)->summedArea(channelOf(weighted, c), 0));
         for (size_t i = 0; i < lights.size(); i++) lights[i].energy[c] = sums.sum(regions[i]);
     }
-    const auto irradiance = valuesOf(passes(shading).irradianceOfLights(lights, probe.shape, 0)[0]);
+    const auto irradiance = valuesOf(passes(shading)->irradianceOfLights(lights, probe.shape, 0)[0]);
     glm::dvec3 mean{0};
     for (const glm::dvec3& v : irradiance) mean += v / static_cast<double>(irradiance.size());
     return mean;

@@ -50,9 +50,9 @@ std::string svgOf(const Plot& plot) {
     };
 
     std::string svg = formatText(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" "
-        "font-family=\"sans-serif\" font-size=\"12\">\n<rect width=\"{0}\" height=\"{1}\" fill=\"white\"/>\n",
-        kWidth, kHeight);
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{}\" height=\"{}\" viewBox=\"0 0 {} {}\" "
+        "font-family=\"sans-serif\" font-size=\"12\">\n<rect width=\"{}\" height=\"{}\" fill=\"white\"/>\n",
+        kWidth, kHeight, kWidth, kHeight, kWidth, kHeight);
     const auto text = [&](double x, double y, const char* anchor, const std::string& words,
                           const std::string& more = "") {
         svg += formatText("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\"{}>{}</text>\n", x, y, anchor,

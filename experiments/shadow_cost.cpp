@@ -340,7 +340,7 @@ int run(const std::filesystem::path& folder) {
 
 int main(int count, char** arguments) {
     if (count < 2) {
-        printText(stderr, "usage: {} FOLDER\n", arguments[0]);
+        etalon::printText(stderr, "usage: {} FOLDER\n", arguments[0]);
         return 2;
     }
     return etalon::experiments::run(arguments[1]);
