@@ -356,7 +356,7 @@ void printFlicker(const NamedProbe& n) {
 
 int run(int argc, char** argv) {
     if (argc < 2 || argc > 3) {
-        printText(stderr, "usage: etalon_experiment_lights FOLDER_OF_PLOTS [FOLDER_OF_PAPER_DATA]\n");
+        etalon::printText(stderr, "usage: etalon_experiment_lights FOLDER_OF_PLOTS [FOLDER_OF_PAPER_DATA]\n");
         return 2;
     }
     const fs::path plots = argv[1], data = argc > 2 ? argv[2] : "";
@@ -386,7 +386,7 @@ int main(int argc, char** argv) {
     try {
         return etalon::experiments::run(argc, argv);
     } catch (const std::exception& error) {
-        printText(stderr, "etalon_experiment_lights: {}\n", error.what());
+        etalon::printText(stderr, "etalon_experiment_lights: {}\n", error.what());
         return 2;
     }
 }
