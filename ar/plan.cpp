@@ -98,8 +98,7 @@ class Planner : public std::enable_shared_from_this<Planner> {
 
     // Images are sampled with their sizes as numbers of the fragment arithmetic.
     void requireSampling(const Profile& profile, const char* what, int line, int width, int height) const {
-        const NumberType type = profile.fragment.type;
-        if (type != NumberType::emulated && type != NumberType::narrow) return;
+        if (!profile.fragment.hasFormat()) return;
         for (const int size : {width, height})
             if (!holds(profile.fragment.format, size))
                 throw InputError(formatText(

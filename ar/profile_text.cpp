@@ -124,7 +124,7 @@ std::vector<ProfileField> profileFields(const Profile& profile) {
         fields.push_back(std::move(field));
     };
     const auto addNumber = [&](const char* key, auto value) { add(key, formatText("{}", value), true); };
-    if (profile.fragment.type != NumberType::emulated) {
+    if (!profile.fragment.hasFormat()) {
         add("fragment", arithmeticName(profile.fragment));
     } else {
         const Format& f = profile.fragment.format;

@@ -29,6 +29,9 @@ struct Arithmetic {
           format(emulated) {}
     friend constexpr bool operator==(const Arithmetic&, const Arithmetic&) = default;
 
+    // Whether numbers are those of `format`.
+    constexpr bool hasFormat() const { return type == NumberType::narrow || type == NumberType::emulated; }
+
     static const Arithmetic truth, fp64, fp32;
     // The formats of numeric/format.h.
     static const Arithmetic fp32Flush, fp32Nv40, fp16, fp16Nv40, bf16, fp24R300;

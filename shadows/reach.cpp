@@ -54,6 +54,7 @@ int significandBitsOf(const Arithmetic& arithmetic) {
     switch (arithmetic.type) {
         case NumberType::fp32:
             return kFp32.significandBits;
+        case NumberType::narrow:
         case NumberType::emulated:
             return arithmetic.format.significandBits;
         case NumberType::fp64:
