@@ -66,7 +66,8 @@ ExitCode runProbeConvert(const ProbeConvertVerb& verb) {
             conversion.rotation[c][r] =
                 from[0][r] * aboutY[c][0] + (from[1][r] * aboutY[c][1] + from[2][r] * aboutY[c][2]);
     const Probe result = convertProbe(source, conversion, profile.fragment, verb.threads);
-    file.write(encodeExr(frameOfProbe(result, memberOfName<CubeLayout>(kLayoutNames, verb.toLayout)), verb.threads));
+    file.write(
+        encodeExr(frameOfProbe(result, memberOfName<CubeLayout>(kLayoutNames, verb.toLayout)), verb.threads));
     file.commit();
     return ExitCode::done;
 }

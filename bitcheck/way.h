@@ -24,7 +24,8 @@ struct WaySelection {
     std::optional<IsaLevel> level;  // only this one; else every usable level
     std::optional<int> threads;     // else 1, 2 and 7
     std::optional<int> tileSize;    // else 16, 32 and 64
-    bool everyCombination = false;  // false: the narrower levels with each number of threads and tile size once
+    bool everyCombination =
+        false;  // false: the narrower levels with each number of threads and tile size once
 };
 
 // The ways of a case, at least one; the first is the widest level with one thread and the largest tile. What
