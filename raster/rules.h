@@ -3,6 +3,6 @@
 
 namespace etalon {
 
-inline constexpr int kRulesVersion = 1;
+inline constexpr int kRulesVersion = 2;
 
 }  // namespace etalon

@@ -163,9 +163,11 @@ TEST_CASE("TheTextOfAProfileIsAFileThatComposesIt") {
         CHECK(sameChoices(readProfileFile(written(folder, profileText(named))), named));
     }
     Profile own = *findProfile("bf16");
-    own.fragment.format.rounding = Rounding::stochastic;
-    own.fragment.format.seed = 12345678901234;
-    own.fragment.format.power = Power::exp2log2;
+    Format format = kBf16;
+    format.rounding = Rounding::stochastic;
+    format.seed = 12345678901234;
+    format.power = Power::exp2log2;
+    own.fragment = Arithmetic(format);
     own.depthRounding = DepthRounding::driver;
     CHECK(sameChoices(readProfileFile(written(folder, profileText(own))), own));
 }
