@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """The verb bits, run with the cases of fake_render_main.cpp. Usage: bits_cli.py PROGRAM"""
 import json
+import re
 import unittest
 
 import cli_case
@@ -116,7 +117,7 @@ class Bits(CliCase):
         self.expect_error("not the hash of what stands above it", "bits", *self.rewritten(
             text[:text.index("case count/two")] + text[text.index("all "):]))
         self.assertIn("the reference was made under rules 999",
-                      self.expect(1, "bits", *self.rewritten(text.replace("rules 1\n", "rules 999\n"))).stdout)
+                      self.expect(1, "bits", *self.rewritten(re.sub(r"rules \d+\n", "rules 999\n", text))).stdout)
 
     def test_cases_that_one_side_lacks_are_differences(self):
         self.expect(0, "bits", "--dump", "one.bin", "--case", "count/one")
