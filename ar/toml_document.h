@@ -27,8 +27,8 @@ struct TomlValue {
 // The largest file that is read, in bytes.
 inline constexpr uintmax_t kMaxTomlBytes = 64u << 20;
 
-// Reads a TOML 1.0 file; messages call it `kind`. InputError when it is missing, not a regular file, too large or not valid TOML; the
-// message has the line of the error.
+// Reads a TOML 1.0 file; messages call it `kind`. InputError when it is missing, not a regular file, too large or not
+// valid TOML; the message has the line of the error.
 TomlValue readToml(const std::filesystem::path& path, std::string_view kind = "scene file");
 
 }  // namespace etalon

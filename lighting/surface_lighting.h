@@ -99,9 +99,6 @@ class SurfaceLighting {
 
   private:
     static constexpr double kEightPi = 25.132741228718345;
-    // Whether operations are instructions.
-    static constexpr bool kIsNative = std::is_same_v<T, TexelStorage<T>> ||
-                                      std::is_same_v<T, Lanes<TexelStorage<T>, NumberTraits<T>::lanes>>;
 
     // What arrives at a point; of a point or spot light its position and intensity instead.
     struct Light {
@@ -132,7 +129,7 @@ class SurfaceLighting {
     }
 
     void addLights(const Request& request, std::span<const Light> lights, Reflected& total) {
-        if constexpr (kIsNative)
+        if constexpr (kIsNativeNumber<T>)
             addLightsFlattened(request, lights, total);
         else
             addEachLight(request, lights, total);

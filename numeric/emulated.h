@@ -331,7 +331,8 @@ Emulated<Lanes<double, N>> select(Mask<double, N> c, Emulated<Lanes<double, N>> 
                                   Emulated<Lanes<double, N>> b) {
     return Emulated<Lanes<double, N>>::ofRepresentable(select(c, a.v, b.v));
 }
-// The square root rounded once, or by reciprocals (Division). -0 gives -0; a negative number gives NaN, and +0 where the format has no NaN.
+// The square root rounded once, or by reciprocals (Division). -0 gives -0; a negative number gives NaN, and +0 where
+// the format has no NaN.
 template <class D>
 Emulated<D> squareRoot(Emulated<D> a) {
     return Emulated<D>::ofRepresentable(EmulatedOperations<D>::squareRoot(a.v));

@@ -13,8 +13,8 @@
 // the same operands is rounded the same way again, so that a sum of equal terms that once stays where it is stays
 // there; a pass that adds up such terms puts the number of the term into the item's key. Conversions to the format
 // have item 0: equal numbers are converted to equal numbers. The shading of fragments has the place of the sample in
-// subpixels as its items, the mean over the samples of a pixel that of the pixel; other passes have 0. pow, atan2, sine and cosine draw with the fraction of their
-// value in double.
+// subpixels as its items, the mean over the samples of a pixel that of the pixel; other passes have 0. pow, atan2,
+// sine and cosine draw with the fraction of their value in double.
 #pragma once
 
 #include <array>
@@ -176,8 +176,8 @@ class EmulatedItemsScope {
 };
 
 // What an object that computes in T keeps of the format of the thread that made it, to compute in the same
-// wherever it is called: `[[maybe_unused]] const auto scope = format_.enter();`. Only emulated numbers (numeric/emulated.h) have
-// one.
+// wherever it is called: `[[maybe_unused]] const auto scope = format_.enter();`. Only the numbers of numeric/emulated.h
+// and numeric/narrow.h have one.
 template <class T>
 struct KeptFormat {
     struct Scope {};

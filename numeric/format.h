@@ -89,8 +89,8 @@ constexpr double smallestPositive(Format f) {
 // (nearestEven, nearestAway), or by less than all of it (the others), relative to the exact result.
 constexpr double epsilonOf(Format f) { return powerOfTwo(1 - f.significandBits); }
 
-// Largest significand and exponents for which arithmetic through double is exact; rounded.h derives the first. The second keeps
-// every exact product, quotient and rounding constant well inside the range of double.
+// Largest significand and exponents for which arithmetic through double is exact; rounded.h derives the first. The
+// second keeps every exact product, quotient and rounding constant well inside the range of double.
 inline constexpr int kMaxSignificandBits = 24;
 inline constexpr int kMaxFormatExponent = 400;
 

@@ -53,7 +53,7 @@ class ConversionWriter {
         return kernel.mappingPoint(direction, sampling_.source);
     }
     Sample sampleAt(Kernel& kernel, const Point& p) const {
-        if constexpr (kIsNative)
+        if constexpr (kIsNativeNumber<T>)
             return sampleFlattened(kernel, p);
         else
             return kernel.sampleProbe(radiance_, shown_, p, sampling_);
@@ -87,9 +87,6 @@ class ConversionWriter {
 
   private:
     static constexpr int kWidth = NumberTraits<T>::lanes;
-    // Whether operations are instructions.
-    static constexpr bool kIsNative =
-        std::is_same_v<T, TexelStorage<T>> || std::is_same_v<T, Lanes<TexelStorage<T>, kWidth>>;
 
     // Texels' coordinates stay in registers: as calls, the steps of the text pass them through memory.
     [[gnu::flatten]] Sample sampleFlattened(Kernel& kernel, const Point& p) const {

@@ -116,6 +116,11 @@ struct TexelStorageOf<Narrow<D>> {
 template <class T>
 using TexelStorage = typename TexelStorageOf<T>::Type;
 
+// Whether operations of T are instructions: float, double and their lanes.
+template <class T>
+inline constexpr bool kIsNativeNumber =
+    std::is_same_v<T, TexelStorage<T>> || std::is_same_v<T, Lanes<TexelStorage<T>, NumberTraits<T>::lanes>>;
+
 // Moves stored texels into the number type T, each rounded once to T, and back.
 template <class T>
 struct TexelFetch {

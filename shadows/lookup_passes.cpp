@@ -94,10 +94,8 @@ class ShadowLookupOf final : public ShadowLookup {
         return planes_[static_cast<size_t>(layer)].texels.data() +
                static_cast<ptrdiff_t>(y + pad_) * stride_ + (x + pad_);
     }
-    // Whether operations are instructions.
-    static constexpr bool kIsNative = std::is_same_v<T, Stored> || std::is_same_v<T, Lanes<Stored, N>>;
     void place(const LitPoints& points, size_t first, size_t count, Places& places) const {
-        if constexpr (kIsNative)
+        if constexpr (kIsNativeNumber<T>)
             placeFlattened(points, first, count, places);
         else
             placeEach(points, first, count, places);
