@@ -11,11 +11,11 @@
 #include "app/machine_options.h"
 #include "app/output.h"
 #include "app/verbs.h"
-#include "ar/atomic_file.h"
-#include "ar/json.h"
 #include "bitcheck/dump.h"
-#include "numeric/text.h"
+#include "files/atomic_file.h"
+#include "files/json.h"
 #include "numeric/parallel.h"
+#include "numeric/text.h"
 #include "raster/rules.h"
 
 namespace etalon {

@@ -5,7 +5,7 @@
 #include <new>
 
 #include "app/output.h"
-#include "ar/atomic_file.h"
+#include "files/atomic_file.h"
 #include "numeric/check.h"
 #include "numeric/text.h"
 

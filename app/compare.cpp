@@ -1,4 +1,4 @@
-#include "ar/compare.h"
+#include "golden/compare.h"
 
 #include <memory>
 
@@ -6,7 +6,7 @@
 #include "app/output.h"
 #include "app/report.h"
 #include "app/verbs.h"
-#include "ar/image_io.h"
+#include "files/image_io.h"
 #include "numeric/text.h"
 
 namespace etalon {

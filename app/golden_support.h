@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "ar/golden.h"
+#include "golden/golden.h"
 
 namespace etalon {
 

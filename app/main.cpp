@@ -1,11 +1,11 @@
 #include "app/command_line.h"
 #include "app/golden_support.h"
 #include "app/verbs.h"
-#include "ar/profile_file.h"
 #include "ar/render_scene.h"
-#include "ar/scene_loader.h"
 #include "bitcheck/bit_case.h"
 #include "raster/rules.h"
+#include "scene/profile_file.h"
+#include "scene/scene_loader.h"
 
 namespace {
 

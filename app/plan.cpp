@@ -6,7 +6,7 @@
 #include "app/output.h"
 #include "app/scene_options.h"
 #include "app/verbs.h"
-#include "ar/scene_loader.h"
+#include "scene/scene_loader.h"
 
 namespace etalon {
 namespace {

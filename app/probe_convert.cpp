@@ -4,12 +4,12 @@
 #include "app/machine_options.h"
 #include "app/probe_options.h"
 #include "app/verbs.h"
-#include "ar/atomic_file.h"
-#include "ar/image_io.h"
-#include "ar/profile_file.h"
-#include "ar/transform.h"
-#include "probes/convert.h"
+#include "files/atomic_file.h"
+#include "files/image_io.h"
 #include "numeric/text.h"
+#include "numeric/transform.h"
+#include "probes/convert.h"
+#include "scene/profile_file.h"
 
 namespace etalon {
 namespace {

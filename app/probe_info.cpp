@@ -4,10 +4,10 @@
 #include "app/output.h"
 #include "app/probe_options.h"
 #include "app/verbs.h"
-#include "ar/json.h"
+#include "files/json.h"
+#include "numeric/text.h"
 #include "probes/irradiance.h"
 #include "probes/probe_statistics.h"
-#include "numeric/text.h"
 
 namespace etalon {
 namespace {

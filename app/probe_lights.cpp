@@ -6,10 +6,10 @@
 #include "app/output.h"
 #include "app/probe_options.h"
 #include "app/verbs.h"
-#include "ar/json.h"
+#include "files/json.h"
+#include "numeric/text.h"
 #include "probes/dominant_lights.h"
 #include "probes/median_cut.h"
-#include "numeric/text.h"
 
 namespace etalon {
 namespace {

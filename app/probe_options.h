@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "ar/probe_file.h"
+#include "files/probe_file.h"
 
 namespace etalon {
 

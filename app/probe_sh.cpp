@@ -5,10 +5,10 @@
 #include "app/output.h"
 #include "app/probe_options.h"
 #include "app/verbs.h"
-#include "ar/json.h"
+#include "files/json.h"
+#include "numeric/text.h"
 #include "probes/harmonics_layout.h"
 #include "probes/harmonics_lobes.h"
-#include "numeric/text.h"
 
 namespace etalon {
 namespace {

@@ -3,9 +3,9 @@
 #include "app/command_line.h"
 #include "app/output.h"
 #include "app/verbs.h"
-#include "ar/profile_file.h"
-#include "ar/profile_text.h"
 #include "numeric/text.h"
+#include "scene/profile_file.h"
+#include "scene/profile_text.h"
 
 namespace etalon {
 namespace {

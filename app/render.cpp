@@ -7,12 +7,12 @@
 #include "app/output.h"
 #include "app/scene_options.h"
 #include "app/verbs.h"
-#include "ar/atomic_file.h"
-#include "ar/image_io.h"
-#include "ar/json.h"
-#include "ar/scene_loader.h"
-#include "ar/toml_reader.h"
+#include "files/atomic_file.h"
+#include "files/image_io.h"
+#include "files/json.h"
 #include "numeric/text.h"
+#include "scene/scene_loader.h"
+#include "scene/toml_reader.h"
 
 namespace etalon {
 namespace {

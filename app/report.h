@@ -3,15 +3,15 @@
 
 #include <string>
 
-#include "ar/compare.h"
-#include "ar/json.h"
+#include "files/json.h"
+#include "golden/compare.h"
 
 namespace etalon {
 
 // Several lines; the first says the verdict. a and b are named as given.
 std::string comparisonText(const Comparison& comparison, const std::string& a, const std::string& b);
 
-// An object; the keys are those of the structures in ar/compare.h in snake case. Infinities and NaN, which
+// An object; the keys are those of the structures in golden/compare.h in snake case. Infinities and NaN, which
 // JSON has not, are the texts "inf", "-inf" and "nan"; the ULP distance of incomparable samples is null.
 Json comparisonJson(const Comparison& comparison);
 

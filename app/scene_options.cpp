@@ -1,7 +1,7 @@
 #include "app/scene_options.h"
 
 #include "app/machine_options.h"
-#include "ar/profile_file.h"
+#include "scene/profile_file.h"
 
 namespace etalon {
 

@@ -1,10 +1,10 @@
 // The environment of a scene as light for its surfaces.
 #pragma once
 
-#include "ar/scene.h"
 #include "lighting/surface_scene.h"
 #include "probes/probe_light.h"
 #include "raster/profile.h"
+#include "scene/scene.h"
 
 namespace etalon {
 

@@ -14,11 +14,11 @@
 #include <string_view>
 #include <vector>
 
-#include "ar/json.h"
 #include "ar/pass.h"
-#include "ar/scene.h"
 #include "ar/scene_passes.h"
+#include "files/json.h"
 #include "raster/rasterizer.h"
+#include "scene/scene.h"
 
 namespace etalon {
 

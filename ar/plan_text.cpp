@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include "ar/json.h"
 #include "ar/plan.h"
-#include "ar/toml_reader.h"
+#include "files/json.h"
 #include "numeric/text.h"
+#include "scene/toml_reader.h"
 
 namespace etalon {
 

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "ar/frame.h"
 #include "ar/plan.h"
-#include "ar/scene.h"
+#include "files/frame.h"
+#include "scene/scene.h"
 
 namespace etalon {
 

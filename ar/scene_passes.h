@@ -9,12 +9,12 @@
 #include <vector>
 
 #include "ar/environment_light.h"
-#include "ar/frame.h"
 #include "ar/pass.h"
-#include "ar/scene.h"
+#include "files/frame.h"
 #include "lighting/light_visibility.h"
 #include "lighting/occlusion.h"
 #include "lighting/render_view.h"
+#include "scene/scene.h"
 #include "shadows/shadow_map.h"
 
 namespace etalon {

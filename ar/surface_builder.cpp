@@ -3,10 +3,10 @@
 #include <cmath>
 #include <map>
 
-#include "ar/image_io.h"
-#include "ar/mesh_loader.h"
-#include "ar/transform.h"
+#include "files/image_io.h"
+#include "files/mesh_loader.h"
 #include "numeric/text.h"
+#include "numeric/transform.h"
 
 namespace etalon {
 

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "ar/scene.h"
 #include "lighting/surface_scene.h"
 #include "lighting/view.h"
+#include "scene/scene.h"
 
 namespace etalon {
 

@@ -4,8 +4,8 @@
 #include "bench/workloads.h"
 #include "lighting/render_view.h"
 #include "probes/convert.h"
-#include "shadows/shadow_maps.h"
 #include "shadows/planar_shadow.h"
+#include "shadows/shadow_maps.h"
 
 namespace etalon::bench {
 

@@ -1,8 +1,8 @@
 // The rows of etalon_bench about probes.
-#include "numeric/door.h"
 #include "bench/measure.h"
 #include "bench/passes.h"
 #include "bench/rows.h"
+#include "numeric/door.h"
 #include "probes/irradiance.h"
 #include "probes/light_passes.h"
 #include "probes/median_cut.h"

@@ -3,9 +3,9 @@
 
 #include "bitcheck/bit_case.h"
 #include "bitcheck/inputs.h"
-#include "probes/latlong.h"
 #include "lighting/shade.h"
 #include "lighting/tone_map.h"
+#include "probes/latlong.h"
 #include "raster/blur.h"
 #include "raster/profile.h"
 

@@ -5,8 +5,8 @@
 #include <numeric>
 #include <utility>
 
-#include "probes/latlong.h"
 #include "numeric/elementary.h"
+#include "probes/latlong.h"
 
 namespace etalon {
 namespace {

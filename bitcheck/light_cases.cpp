@@ -2,9 +2,9 @@
 // filter.
 #include <limits>
 
-#include "numeric/door.h"
 #include "bitcheck/bit_case.h"
 #include "bitcheck/inputs.h"
+#include "numeric/door.h"
 #include "probes/dominant_lights.h"
 #include "probes/light_filter.h"
 #include "probes/light_passes.h"

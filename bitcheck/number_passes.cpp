@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "bitcheck/number_tables.h"
-#include "probes/latlong.h"
 #include "numeric/door.h"
 #include "numeric/lanes.h"
 #include "numeric/number_lanes.h"
+#include "probes/latlong.h"
 #include "raster/cube_face.h"
 #include "raster/sampler.h"
 

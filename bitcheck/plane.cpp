@@ -4,8 +4,8 @@
 #include <bit>
 #include <utility>
 
-#include "numeric/text.h"
 #include "numeric/hash.h"
+#include "numeric/text.h"
 
 namespace etalon {
 namespace {

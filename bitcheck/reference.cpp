@@ -4,8 +4,8 @@
 #include <charconv>
 #include <optional>
 
-#include "numeric/text.h"
 #include "numeric/hash.h"
+#include "numeric/text.h"
 
 namespace etalon {
 namespace {

@@ -5,8 +5,8 @@ set(etalon_installed_targets etalon_numeric_flags etalon_numeric etalon_truth et
                              etalon_bitcheck)
 set(etalon_installed_folders numeric raster probes lighting shadows bitcheck)
 if(ETALON_APP)
-  list(APPEND etalon_installed_targets etalon_ar)
-  list(APPEND etalon_installed_folders ar)
+  list(APPEND etalon_installed_targets etalon_files etalon_golden etalon_scene etalon_ar)
+  list(APPEND etalon_installed_folders files golden scene ar)
   install(TARGETS etalon etalon_image_io RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR}
           LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/etalon)
 endif()

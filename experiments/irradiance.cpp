@@ -7,16 +7,16 @@
 #include <cmath>
 #include <filesystem>
 
-#include "ar/image_io.h"
 #include "experiments/light_probes.h"
+#include "files/image_io.h"
 #include "lighting/tone_map.h"
+#include "numeric/door.h"
+#include "numeric/text.h"
 #include "probes/convert.h"
 #include "probes/harmonics_lobes.h"
 #include "probes/light_passes.h"
 #include "probes/median_cut.h"
 #include "probes/texel_grid.h"
-#include "numeric/door.h"
-#include "numeric/text.h"
 
 namespace etalon::experiments {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "ar/image_io.h"
+#include "files/image_io.h"
 #include "numeric/text.h"
 
 namespace etalon::experiments {

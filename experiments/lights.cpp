@@ -9,12 +9,12 @@
 #include <functional>
 #include <iterator>
 
-#include "ar/image_io.h"
 #include "experiments/light_probes.h"
 #include "experiments/plot.h"
+#include "files/image_io.h"
 #include "numeric/door.h"
-#include "numeric/text.h"
 #include "numeric/random.h"
+#include "numeric/text.h"
 #include "probes/irradiance.h"
 #include "probes/light_filter.h"
 #include "probes/light_passes.h"

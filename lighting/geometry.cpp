@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "lighting/transform.h"
-#include "numeric/door.h"
 #include "numeric/check.h"
+#include "numeric/door.h"
 #include "numeric/parallel.h"
 
 namespace etalon {

@@ -4,8 +4,8 @@
 #include <mutex>
 
 #include "lighting/shading_passes.h"
-#include "numeric/door.h"
 #include "numeric/check.h"
+#include "numeric/door.h"
 #include "numeric/parallel.h"
 #include "probes/mapping_passes.h"
 

@@ -7,8 +7,8 @@
 #include <memory>
 #include <vector>
 
-#include "lighting/shading_passes.h"
 #include "lighting/shading_kernels.h"
+#include "lighting/shading_passes.h"
 #include "lighting/surface_lighting.h"
 #include "lighting/tile_triangles.h"
 #include "numeric/number_lanes.h"

@@ -1,7 +1,7 @@
 #include "lighting/tone_map.h"
 
-#include "numeric/door.h"
 #include "numeric/check.h"
+#include "numeric/door.h"
 #include "numeric/format.h"
 
 namespace etalon {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "numeric/door.h"
 #include "numeric/check.h"
+#include "numeric/door.h"
 #include "probes/mapping_passes.h"
 #include "probes/texel_grid.h"
 

@@ -1,7 +1,7 @@
 #include "probes/irradiance.h"
 
-#include "numeric/door.h"
 #include "numeric/check.h"
+#include "numeric/door.h"
 #include "probes/harmonics_lobes.h"
 #include "probes/irradiance_passes.h"
 #include "probes/texel_grid.h"

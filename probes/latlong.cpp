@@ -1,8 +1,8 @@
 #include "probes/latlong.h"
 
-#include "probes/mapping_passes.h"
-#include "numeric/door.h"
 #include "numeric/check.h"
+#include "numeric/door.h"
+#include "probes/mapping_passes.h"
 
 namespace etalon {
 

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <limits>
 
-#include "numeric/door.h"
-#include "probes/energy_passes.h"
 #include "numeric/check.h"
+#include "numeric/door.h"
 #include "numeric/elementary.h"
 #include "numeric/parallel.h"
+#include "probes/energy_passes.h"
 #include "probes/latlong.h"
 #include "probes/summed_area.h"
 

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "numeric/door.h"
 #include "numeric/check.h"
+#include "numeric/door.h"
 #include "probes/harmonics_passes.h"
 #include "probes/harmonics_rotation.h"
 

@@ -7,7 +7,7 @@ namespace {
 
 // Sources: Direct3D 11.3 [D3D11.3, secs. 3, 7.18], Vulkan's minimum limits [VulkanSpec, "Required Limits"],
 // R300 and NV40 as far as their vendors documented them (docs/references.md). What is documented of each field and what
-// is assumed: ar/profile_text.cpp.
+// is assumed: scene/profile_text.cpp.
 std::array<Profile, 10> namedProfiles() {
     return {{
         {"f32", "IEEE single precision, exact texture fractions, D32F", Arithmetic::fp32},

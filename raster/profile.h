@@ -1,6 +1,6 @@
 // Profiles: sets of choices for arithmetic, storage and fixed function. What a run differs in from another run of the
 // same scene is this, and nothing else. A profile is a value: named ones stand here, a user composes others in a file
-// (ar/profile_file.h).
+// (scene/profile_file.h).
 #pragma once
 
 #include <span>

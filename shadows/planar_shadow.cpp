@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "lighting/transform.h"
-#include "numeric/door.h"
 #include "numeric/check.h"
+#include "numeric/door.h"
 #include "numeric/parallel.h"
 #include "raster/blur.h"
 #include "raster/fragments.h"

@@ -1,7 +1,7 @@
 #include "shadows/shadow_maps.h"
 
-#include "numeric/door.h"
 #include "numeric/check.h"
+#include "numeric/door.h"
 
 namespace etalon {
 

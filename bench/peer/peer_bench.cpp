@@ -8,9 +8,9 @@
 
 #include "bench/measure.h"
 #include "bench/peer/peer_passes.h"
-#include "probes/latlong.h"
-#include "numeric/text.h"
 #include "numeric/check.h"
+#include "numeric/text.h"
+#include "probes/latlong.h"
 #include "raster/blur.h"
 
 namespace etalon::bench {

@@ -2,8 +2,8 @@
 
 #include <cstring>
 
-#include "numeric/text.h"
 #include "numeric/check.h"
+#include "numeric/text.h"
 
 namespace etalon::bench {
 namespace {

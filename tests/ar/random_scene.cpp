@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <fstream>
 
-#include "ar/image_io.h"
-#include "ar/transform.h"
+#include "files/image_io.h"
 #include "numeric/text.h"
+#include "numeric/transform.h"
 #include "raster/profile.h"
 #include "tests/support/random_numbers.h"
 

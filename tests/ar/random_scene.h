@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "ar/scene.h"
+#include "scene/scene.h"
 #include "tests/support/scratch_folder.h"
 
 namespace etalon::test {

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <fstream>
 
-#include "ar/compare.h"
-#include "ar/image_io.h"
-#include "ar/scene_loader.h"
-#include "ar/transform.h"
+#include "files/image_io.h"
+#include "golden/compare.h"
+#include "numeric/transform.h"
+#include "scene/scene_loader.h"
 #include "tests/support/scratch_folder.h"
 
 using namespace etalon;

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "ar/compare.h"
-#include "ar/golden.h"
-#include "ar/hash.h"
+#include "golden/compare.h"
+#include "golden/golden.h"
+#include "golden/hash.h"
 #include "tests/fuzz/fuzz.h"
 
 using namespace etalon;

@@ -1,7 +1,7 @@
 // An image file of the kind that its first bytes say: refused with one line, or the frame is sound and can be
 // written as an EXR that holds its bits.
-#include "ar/compare.h"
-#include "ar/image_io.h"
+#include "files/image_io.h"
+#include "golden/compare.h"
 #include "tests/fuzz/fuzz.h"
 
 using namespace etalon;

@@ -1,5 +1,5 @@
 // A golden manifest: refused with one line, or what is read is written as text that reads as the same.
-#include "ar/golden.h"
+#include "golden/golden.h"
 #include "tests/fuzz/fuzz.h"
 
 using namespace etalon;

@@ -1,16 +1,16 @@
 // A mesh file (PLY when it begins as one, else OBJ): refused with one line, or what is loaded is what
-// ar/mesh.h promises, twice the same.
+// files/mesh.h promises, twice the same.
 #include <bit>
 #include <cmath>
 
-#include "ar/mesh_loader.h"
+#include "files/mesh_loader.h"
 #include "tests/fuzz/fuzz.h"
 
 using namespace etalon;
 
 namespace {
 
-// As in tests/ar/mesh_test.cpp: ar/mesh.h promises unit length to within 1e-7, and its square has twice that
+// As in tests/files/mesh_test.cpp: files/mesh.h promises unit length to within 1e-7, and its square has twice that
 // error.
 constexpr double kSquareTolerance = 2.1e-7;
 

@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "ar/render_scene.h"
-#include "ar/scene_loader.h"
 #include "ar/surface_builder.h"
+#include "scene/scene_loader.h"
 #include "tests/fuzz/fuzz.h"
 
 using namespace etalon;

@@ -1,6 +1,6 @@
 // The elementary functions against MPFR, in all number types.
-#include "numeric/text.h"
 #include "numeric/elementary.h"
+#include "numeric/text.h"
 
 #include <doctest/doctest.h>
 #include <mpfr.h>

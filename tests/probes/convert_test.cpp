@@ -7,8 +7,8 @@
 #include <limits>
 #include <map>
 
-#include "numeric/door.h"
 #include "numeric/check.h"
+#include "numeric/door.h"
 #include "probes/convert_over.h"
 #include "probes/mapping_passes.h"
 #include "probes/texel_grid.h"

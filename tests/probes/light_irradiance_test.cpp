@@ -4,12 +4,12 @@
 
 #include <cmath>
 
-#include "probes/probe_errors.h"
 #include "numeric/door.h"
 #include "numeric/rounded.h"
 #include "numeric/truth.h"
 #include "probes/light_passes.h"
 #include "probes/median_cut.h"
+#include "probes/probe_errors.h"
 #include "tests/support/random_numbers.h"
 
 namespace etalon {

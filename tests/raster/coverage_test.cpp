@@ -4,11 +4,11 @@
 #include <utility>
 #include <vector>
 
+#include "numeric/text.h"
 #include "raster/rasterizer.h"
 #include "tests/support/draw_triangles.h"
 #include "tests/support/random_triangles.h"
 #include "tests/support/reference_replay.h"
-#include "numeric/text.h"
 
 using namespace etalon;
 

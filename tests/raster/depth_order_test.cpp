@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "tests/support/draw_triangles.h"
 #include "numeric/text.h"
+#include "tests/support/draw_triangles.h"
 
 using namespace etalon;
 

@@ -5,10 +5,10 @@
 #include <array>
 #include <vector>
 
+#include "numeric/text.h"
 #include "tests/support/draw_triangles.h"
 #include "tests/support/random_triangles.h"
 #include "tests/support/reference_replay.h"
-#include "numeric/text.h"
 
 using namespace etalon;
 

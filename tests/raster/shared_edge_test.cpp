@@ -7,10 +7,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "numeric/text.h"
 #include "raster/rasterizer.h"
 #include "tests/support/draw_triangles.h"
 #include "tests/support/random_triangles.h"
-#include "numeric/text.h"
 
 using namespace etalon;
 

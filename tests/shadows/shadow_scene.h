@@ -4,10 +4,10 @@
 #include <cmath>
 #include <vector>
 
-#include "numeric/door.h"
 #include "lighting/geometry.h"
 #include "lighting/light_visibility.h"
 #include "lighting/render_view.h"
+#include "numeric/door.h"
 #include "raster/profile.h"
 #include "shadows/lookup_passes.h"
 #include "shadows/shadow_map.h"

@@ -2,7 +2,7 @@
 // what was written.
 #include <filesystem>
 
-#include "ar/image_io.h"
+#include "files/image_io.h"
 
 int main(int, char** argv) {
     const std::filesystem::path folder = argv[1];

@@ -1,0 +1,139 @@
+#include "scene/profile_file.h"
+
+#include <algorithm>
+#include <array>
+
+#include "numeric/check.h"
+#include "numeric/text.h"
+#include "scene/toml_reader.h"
+
+namespace etalon {
+namespace {
+
+constexpr std::array<std::string_view, 6> kRoundingNames = {"nearest-even", "toward-zero", "nearest-away",
+                                                            "up",           "down",        "stochastic"};
+constexpr std::array<std::string_view, 2> kSubnormalNames = {"keep", "flush"};
+constexpr std::array<std::string_view, 2> kOverflowNames = {"infinity", "saturate"};
+constexpr std::array<std::string_view, 2> kDivisionNames = {"exact", "reciprocal"};
+constexpr std::array<std::string_view, 2> kPowerNames = {"exact", "exp2log2"};
+constexpr std::array<std::string_view, 2> kRasterRealNames = {"fp32", "fp64"};
+constexpr std::array<std::string_view, 3> kDepthFormatNames = {"d16", "d24", "d32f"};
+constexpr std::array<std::string_view, 2> kDepthRoundingNames = {"exact", "driver"};
+constexpr std::array<std::string_view, 2> kFilterNames = {"nearest", "bilinear"};
+static_assert(static_cast<size_t>(Rounding::stochastic) + 1 == kRoundingNames.size());
+static_assert(static_cast<size_t>(DepthFormat::d32f) + 1 == kDepthFormatNames.size());
+
+// Replaces the value if the key is there.
+template <class E>
+void read(const TableReader& reader, std::string_view key, std::span<const std::string_view> names,
+          E& value) {
+    if (!reader.has(key)) return;
+    const std::string given = reader.choice(key, names);
+    value = static_cast<E>(std::find(names.begin(), names.end(), given) - names.begin());
+}
+void read(const TableReader& reader, std::string_view key, int lo, int hi, int& value) {
+    if (reader.has(key)) value = static_cast<int>(reader.integer(key, lo, hi));
+}
+
+// A table of a format's fields; what it leaves out is as in `format`.
+Format readFormat(const std::string& file, const TomlValue& value, Format format) {
+    const TableReader reader(file, value, "[fragment]",
+                             {"format", "significand_bits", "min_exponent", "max_exponent", "rounding",
+                              "subnormals", "overflow", "division", "power", "seed"});
+    if (reader.has("format")) {
+        std::vector<std::string_view> names;
+        for (const NamedFormat& named : namedFormats()) names.push_back(named.name);
+        const std::string given = reader.choice("format", names);
+        for (const NamedFormat& named : namedFormats())
+            if (named.name == given) format = named.format;
+    }
+    read(reader, "significand_bits", 2, kMaxSignificandBits, format.significandBits);
+    read(reader, "min_exponent", -kMaxFormatExponent, 0, format.minExponent);
+    read(reader, "max_exponent", 0, kMaxFormatExponent, format.maxExponent);
+    read(reader, "rounding", kRoundingNames, format.rounding);
+    read(reader, "subnormals", kSubnormalNames, format.subnormals);
+    read(reader, "overflow", kOverflowNames, format.overflow);
+    read(reader, "division", kDivisionNames, format.division);
+    read(reader, "power", kPowerNames, format.power);
+    if (format.rounding != Rounding::stochastic)
+        reader.forbid("seed", "needs rounding = \"stochastic\" beside it");
+    if (reader.has("seed")) format.seed = static_cast<uint64_t>(reader.integer("seed", 0, INT64_MAX));
+    // Whole numbers up to the format's digits are numbers of it.
+    if (format.maxExponent < format.significandBits - 1)
+        reader.failKey("max_exponent",
+                       formatText("must be at least {} for {} significand bits, not {}",
+                                  format.significandBits - 1, format.significandBits, format.maxExponent));
+    if (!isSupported(format))
+        reader.fail(reader.line(),
+                    "the format in [fragment] cannot be emulated: " + arithmeticName(Arithmetic(format)));
+    return format;
+}
+
+// The name of an arithmetic, or a table.
+Arithmetic readFragment(const TableReader& reader, const Arithmetic& base) {
+    const TomlValue& value = reader.value("fragment");
+    if (value.kind == TomlKind::table) return Arithmetic(readFormat(reader.file(), value, base.format));
+    if (value.kind != TomlKind::string)
+        reader.failKey("fragment", "must be the name of an arithmetic or a table of a format's fields");
+    std::vector<std::string_view> names = {"truth", "fp64"};
+    for (const NamedFormat& named : namedFormats()) names.push_back(named.name);
+    const std::string given = reader.choice("fragment", names);
+    if (given == "truth") return Arithmetic::truth;
+    if (given == "fp64") return Arithmetic::fp64;
+    if (given == "fp32") return Arithmetic::fp32;
+    for (const NamedFormat& named : namedFormats())
+        if (named.name == given) return Arithmetic(named.format);
+    return base;
+}
+
+}  // namespace
+
+std::span<const std::string_view> roundingNames() { return kRoundingNames; }
+std::span<const std::string_view> subnormalNames() { return kSubnormalNames; }
+std::span<const std::string_view> overflowNames() { return kOverflowNames; }
+std::span<const std::string_view> divisionNames() { return kDivisionNames; }
+std::span<const std::string_view> powerNames() { return kPowerNames; }
+std::span<const std::string_view> rasterRealNames() { return kRasterRealNames; }
+std::span<const std::string_view> depthFormatNames() { return kDepthFormatNames; }
+std::span<const std::string_view> depthRoundingNames() { return kDepthRoundingNames; }
+std::span<const std::string_view> filterNames() { return kFilterNames; }
+
+bool isProfileFile(std::string_view nameOrFile) { return nameOrFile.ends_with(".toml"); }
+
+Profile readProfileFile(const std::filesystem::path& path) {
+    const TomlValue document = readToml(path, "profile file");
+    const std::string file = path.string();
+    const TableReader reader(file, document, "the profile",
+                             {"base", "fragment", "vertex", "depth", "depth_rounding", "subpixel_bits",
+                              "texture_fraction_bits", "texture_filter"});
+    const std::string base = reader.has("base") ? reader.choice("base", profileNames()) : "f32";
+    Profile profile = *findProfile(base);
+    profile.name = path.filename().string();
+    profile.meaning = formatText("composed in a file from {}", base);
+    if (reader.has("fragment")) profile.fragment = readFragment(reader, profile.fragment);
+    read(reader, "vertex", kRasterRealNames, profile.vertex);
+    read(reader, "depth", kDepthFormatNames, profile.depth);
+    read(reader, "depth_rounding", kDepthRoundingNames, profile.depthRounding);
+    read(reader, "subpixel_bits", 4, 8, profile.subpixelBits);
+    if (reader.has("texture_fraction_bits")) {
+        constexpr std::string_view kExact[] = {"exact"};
+        if (reader.value("texture_fraction_bits").kind == TomlKind::string) {
+            reader.choice("texture_fraction_bits", kExact);
+            profile.textureFractionBits = kExactFraction;
+        } else {
+            read(reader, "texture_fraction_bits", 0, kMaxFractionBits, profile.textureFractionBits);
+        }
+    }
+    read(reader, "texture_filter", kFilterNames, profile.textureFilter);
+    return profile;
+}
+
+Profile loadProfile(const std::string& nameOrFile) {
+    if (isProfileFile(nameOrFile)) return readProfileFile(nameOrFile);
+    if (const Profile* named = findProfile(nameOrFile)) return *named;
+    const std::vector<std::string_view> names = profileNames();
+    throw InputError(formatText("profile '{}' is neither one of {} nor a file that ends in .toml{}",
+                                printable(nameOrFile), joined(names), nearestHint(nameOrFile, names)));
+}
+
+}  // namespace etalon

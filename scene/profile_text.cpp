@@ -1,0 +1,188 @@
+#include "scene/profile_text.h"
+
+#include <algorithm>
+#include <string_view>
+
+#include "numeric/text.h"
+#include "scene/profile_file.h"
+
+namespace etalon {
+namespace {
+
+// What is known of a field of a named profile.
+struct Note {
+    std::string_view profile, key, documented, assumed;
+};
+
+// Profiles that imitate hardware or a specification. A key that ends in a dot is that of all fields below it that have
+// no note of their own.
+constexpr Note kNotes[] = {
+    {"f32", "fragment", "binary32 of [IEEE754]", ""},
+    {"f64", "fragment", "binary64 of [IEEE754]", ""},
+    {"fp16", "fragment.", "binary16 of [IEEE754]", ""},
+    {"bf16", "fragment.significand_bits", "binary32 with 8 significand bits", ""},
+    {"bf16", "fragment.rounding", "", "each result is rounded; real units accumulate in binary32"},
+    {"bf16", "fragment.subnormals", "", "kept; real units often flush"},
+
+    {"d3d11", "fragment.", "binary32 [D3D11.3, sec. 3]", ""},
+    {"d3d11", "fragment.rounding", "sums and products within 0.5 ULP [D3D11.3, sec. 3]", "ties to even"},
+    {"d3d11", "fragment.subnormals", "flushed to a zero that keeps its sign [D3D11.3, sec. 3]", ""},
+    {"d3d11", "fragment.overflow", "infinities and NaN [D3D11.3, sec. 3]", ""},
+    {"d3d11", "fragment.division", "", "correctly rounded, where more error is allowed [D3D11.3, sec. 3]"},
+    {"d3d11", "fragment.power", "", "correctly rounded, where more error is allowed [D3D11.3, sec. 3]"},
+    {"d3d11", "vertex", "binary32 [D3D11.3, sec. 3]", "subnormals kept"},
+    {"d3d11", "depth_rounding", "one half is added, then the fraction is cut off [D3D11.3]", ""},
+    {"d3d11", "subpixel_bits", "8 [D3D11.3]", ""},
+    {"d3d11", "texture_fraction_bits", "at least 8 [D3D11.3, sec. 7.18]", ""},
+    {"d3d11", "texture_filter", "", "float textures are filtered"},
+
+    {"vulkan-min", "fragment", "32 bits [VulkanSpec]",
+     "nearest-even, subnormals kept, exact quotients and powers, where more error is allowed"},
+    {"vulkan-min", "vertex", "32 bits [VulkanSpec]", "nearest-even, subnormals kept"},
+    {"vulkan-min", "depth", "every device has it [VulkanSpec]", ""},
+    {"vulkan-min", "depth_rounding", "", "exact"},
+    {"vulkan-min", "subpixel_bits", "the least subPixelPrecisionBits [VulkanSpec, \"Required Limits\"]", ""},
+    {"vulkan-min", "texture_fraction_bits",
+     "the least subTexelPrecisionBits [VulkanSpec, \"Required Limits\"]", ""},
+    {"vulkan-min", "texture_filter", "", "float textures are filtered"},
+
+    {"nv40-fp32", "fragment.significand_bits", "23 fraction bits [Kilgariff2005]", ""},
+    {"nv40-fp32", "fragment.min_exponent", "8 exponent bits [Kilgariff2005]", ""},
+    {"nv40-fp32", "fragment.max_exponent", "8 exponent bits [Kilgariff2005]", ""},
+    {"nv40-fp32", "fragment.rounding", "", "nearest-even"},
+    {"nv40-fp32", "fragment.subnormals", "", "flushed"},
+    {"nv40-fp32", "fragment.overflow", "", "infinities and NaN"},
+    {"nv40-fp32", "fragment.division", "", "one exact step"},
+    {"nv40-fp32", "fragment.power", "", "one exact step"},
+    {"nv40-fp32", "vertex", "32 bits [Kilgariff2005]", "nearest-even, subnormals kept"},
+    {"nv40-fp32", "depth", "", "24 bits"},
+    {"nv40-fp32", "depth_rounding", "", "exact"},
+    {"nv40-fp32", "subpixel_bits", "", "8"},
+    {"nv40-fp32", "texture_fraction_bits", "", "8"},
+    {"nv40-fp32", "texture_filter", "fp16 textures are filtered, not fp32 [Kilgariff2005]", ""},
+
+    {"nv40-fp16", "fragment.significand_bits", "10 fraction bits [Kilgariff2005]", ""},
+    {"nv40-fp16", "fragment.min_exponent", "5 exponent bits [Kilgariff2005]", ""},
+    {"nv40-fp16", "fragment.max_exponent", "5 exponent bits [Kilgariff2005]", ""},
+    {"nv40-fp16", "fragment.rounding", "", "nearest-even"},
+    {"nv40-fp16", "fragment.subnormals", "", "kept"},
+    {"nv40-fp16", "fragment.overflow", "", "infinities and NaN"},
+    {"nv40-fp16", "fragment.division", "", "one exact step"},
+    {"nv40-fp16", "fragment.power", "", "one exact step"},
+    {"nv40-fp16", "vertex", "32 bits [Kilgariff2005]", "nearest-even, subnormals kept"},
+    {"nv40-fp16", "depth", "", "24 bits"},
+    {"nv40-fp16", "depth_rounding", "", "exact"},
+    {"nv40-fp16", "subpixel_bits", "", "8"},
+    {"nv40-fp16", "texture_fraction_bits", "", "8"},
+    {"nv40-fp16", "texture_filter", "fp16 textures are filtered [Kilgariff2005]", ""},
+
+    {"r300-fp24", "fragment.significand_bits", "16 fraction bits, by a single source", ""},
+    {"r300-fp24", "fragment.min_exponent", "7 exponent bits, by a single source",
+     "all exponents but that of zero are numbers"},
+    {"r300-fp24", "fragment.max_exponent", "7 exponent bits, by a single source",
+     "all exponents but that of zero are numbers"},
+    {"r300-fp24", "fragment.rounding", "truncation, by a single source", ""},
+    {"r300-fp24", "fragment.subnormals", "none, by a single source", "a zero keeps its sign"},
+    {"r300-fp24", "fragment.overflow", "no infinities and no NaN, by a single source", "0/0 is +0"},
+    {"r300-fp24", "fragment.division", "not followed: the product with a reciprocal [MesaR300]",
+     "one exact step"},
+    {"r300-fp24", "fragment.power", "not followed: log2, product, exp2 [MesaR300]", "one exact step"},
+    {"r300-fp24", "vertex", "", "32 bits, nearest-even"},
+    {"r300-fp24", "depth", "", "24 bits"},
+    {"r300-fp24", "depth_rounding", "", "exact"},
+    {"r300-fp24", "subpixel_bits", "", "8"},
+    {"r300-fp24", "texture_fraction_bits", "", "8"},
+    {"r300-fp24", "texture_filter", "float textures are not filtered, by a single source", ""},
+};
+
+// The longest key that fits; null if none does.
+const Note* noteOf(std::string_view profile, std::string_view key) {
+    const Note* best = nullptr;
+    for (const Note& note : kNotes) {
+        if (note.profile != profile) continue;
+        if (note.key != key && !(note.key.ends_with('.') && key.starts_with(note.key))) continue;
+        if (best == nullptr || note.key.size() > best->key.size()) best = &note;
+    }
+    return best;
+}
+
+template <class E>
+std::string nameOf(std::span<const std::string_view> names, E value) {
+    return std::string(names[static_cast<size_t>(value)]);
+}
+
+}  // namespace
+
+std::vector<ProfileField> profileFields(const Profile& profile) {
+    std::vector<ProfileField> fields;
+    const auto add = [&](const char* key, std::string value, bool isNumber = false) {
+        ProfileField field{key, std::move(value), isNumber, "", ""};
+        if (const Note* note = noteOf(profile.name, key)) {
+            field.documented = note->documented;
+            field.assumed = note->assumed;
+        }
+        fields.push_back(std::move(field));
+    };
+    const auto addNumber = [&](const char* key, auto value) { add(key, formatText("{}", value), true); };
+    if (!profile.fragment.hasFormat()) {
+        add("fragment", arithmeticName(profile.fragment));
+    } else {
+        const Format& f = profile.fragment.format;
+        addNumber("fragment.significand_bits", f.significandBits);
+        addNumber("fragment.min_exponent", f.minExponent);
+        addNumber("fragment.max_exponent", f.maxExponent);
+        add("fragment.rounding", nameOf(roundingNames(), f.rounding));
+        add("fragment.subnormals", nameOf(subnormalNames(), f.subnormals));
+        add("fragment.overflow", nameOf(overflowNames(), f.overflow));
+        add("fragment.division", nameOf(divisionNames(), f.division));
+        add("fragment.power", nameOf(powerNames(), f.power));
+        if (f.rounding == Rounding::stochastic) addNumber("fragment.seed", f.seed);
+    }
+    add("vertex", nameOf(rasterRealNames(), profile.vertex));
+    add("depth", nameOf(depthFormatNames(), profile.depth));
+    add("depth_rounding", nameOf(depthRoundingNames(), profile.depthRounding));
+    addNumber("subpixel_bits", profile.subpixelBits);
+    if (profile.textureFractionBits == kExactFraction)
+        add("texture_fraction_bits", "exact");
+    else
+        addNumber("texture_fraction_bits", profile.textureFractionBits);
+    add("texture_filter", nameOf(filterNames(), profile.textureFilter));
+    return fields;
+}
+
+std::string profileText(const Profile& profile) {
+    const std::vector<ProfileField> fields = profileFields(profile);
+    std::vector<std::string> lines;
+    size_t width = 0;
+    for (const ProfileField& field : fields) {
+        lines.push_back(field.isNumber ? formatText("{} = {}", field.key, field.value)
+                                       : formatText("{} = \"{}\"", field.key, field.value));
+        width = std::max(width, lines.back().size());
+    }
+    std::string text = formatText("# {}: {}\n", profile.name, profile.meaning);
+    for (size_t i = 0; i < fields.size(); i++) {
+        const ProfileField& field = fields[i];
+        std::string notes;
+        if (!field.documented.empty()) notes = "documented: " + field.documented;
+        if (!field.assumed.empty()) notes += (notes.empty() ? "assumed: " : "; assumed: ") + field.assumed;
+        text += notes.empty() ? lines[i] + "\n" : formatText("{:{}}  # {}\n", lines[i], width, notes);
+    }
+    return text;
+}
+
+Json profilesJson(std::span<const Profile> profiles) {
+    Json list = Json::list();
+    for (const Profile& profile : profiles) {
+        Json fields = Json::list();
+        for (const ProfileField& field : profileFields(profile))
+            fields.append({{"key", field.key},
+                           {"value", field.isNumber ? Json(static_cast<int64_t>(std::stoll(field.value)))
+                                                    : Json(field.value)},
+                           {"documented", field.documented},
+                           {"assumed", field.assumed}});
+        list.append({{"name", profile.name}, {"meaning", profile.meaning}, {"fields", fields}});
+    }
+    return list;
+}
+
+}  // namespace etalon
