@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "numeric/vectors.h"
 #include "probes/convert.h"
 #include "probes/dominant_lights.h"
 #include "probes/harmonics_lobes.h"
@@ -11,8 +12,6 @@
 
 namespace etalon {
 namespace {
-
-constexpr double kPi = 0x1.921fb54442d18p+1;
 
 // A constant environment as an image: smooth enough for every method.
 constexpr int kConstantWidth = 32, kConstantHeight = 16;

@@ -7,13 +7,12 @@
 #include <utility>
 
 #include "numeric/check.h"
+#include "numeric/vectors.h"
 
 namespace etalon::bench {
 namespace {
 
 using glm::dvec3;
-
-constexpr double kPi = std::numbers::pi;
 
 double dot(const dvec3& a, const dvec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 dvec3 cross(const dvec3& a, const dvec3& b) {

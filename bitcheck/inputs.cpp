@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "numeric/elementary.h"
+#include "numeric/vectors.h"
 #include "probes/latlong.h"
 
 namespace etalon {
@@ -91,9 +92,7 @@ std::array<ClipVertex, 3> soupTriangle(Random& random, Soup family, const Viewpo
 glm::vec3 narrow(const glm::dvec3& v) {
     return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
-glm::dvec3 cross(const glm::dvec3& a, const glm::dvec3& b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
+// In the order that the reference bits were made with.
 glm::dvec3 unit(const glm::dvec3& v) {
     const double length = std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
     return {v.x / length, v.y / length, v.z / length};
@@ -160,7 +159,7 @@ SurfaceMesh torusKnotMesh(int along, int around) {
             const double turn = static_cast<double>(i) / along;
             const glm::dvec3 centre = knotCentre(turn), next = knotCentre(turn + kStep);
             const glm::dvec3 tangent = unit({next.x - centre.x, next.y - centre.y, next.z - centre.z});
-            const glm::dvec3 side = unit(cross(tangent, {0.1, 1, 0.2})), up = cross(side, tangent);
+            const glm::dvec3 side = unit(crossOf(tangent, {0.1, 1, 0.2})), up = crossOf(side, tangent);
             const double angle_rad = kTurn_rad * j / around, c = cosOf(angle_rad), s = sinOf(angle_rad);
             glm::dvec3 normal, position;
             for (int k = 0; k < 3; k++) {
@@ -262,8 +261,8 @@ View demoView(int width, int height) {
     camera.cy = 0.53 * height;
     camera.position = {0.6, 2.2, 4.6};
     camera.backward = unit({0.15, 0.35, 1});
-    camera.right = unit(cross({0, 1, 0}, camera.backward));
-    camera.up = cross(camera.backward, camera.right);
+    camera.right = unit(crossOf({0, 1, 0}, camera.backward));
+    camera.up = crossOf(camera.backward, camera.right);
     return cameraView(camera);
 }
 

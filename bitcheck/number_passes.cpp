@@ -8,7 +8,7 @@
 #include "bitcheck/number_tables.h"
 #include "numeric/door.h"
 #include "numeric/lanes.h"
-#include "numeric/number_lanes.h"
+#include "numeric/number.h"
 #include "probes/latlong.h"
 #include "raster/cube_face.h"
 #include "raster/sampler.h"
@@ -22,7 +22,7 @@ using NarrowLanes = Narrow<Native<float>>;
 // A plane with a layer for each of f's results. f(first) returns the results of one group of lanes.
 template <class T, size_t Layers, class F>
 BitPlane tabulate(std::string name, size_t count, F&& f) {
-    constexpr int kWidth = NumberTraits<T>::lanes;
+    constexpr int kWidth = Number<T>::lanes;
     static_assert(kTableWidth % kWidth == 0);
     BitPlane plane{
         std::move(name),          WordKind::float64, kTableWidth, static_cast<int>(count) / kTableWidth,
@@ -40,7 +40,7 @@ BitPlane tabulate(std::string name, size_t count, F&& f) {
 
 template <class T>
 T load(const std::vector<double>& values, size_t first) {
-    return generateNumber<T>([&](int i) { return values[first + static_cast<size_t>(i)]; });
+    return Number<T>::generate([&](int i) { return values[first + static_cast<size_t>(i)]; });
 }
 
 template <class T>
@@ -214,7 +214,7 @@ double numberOfPattern(uint32_t pattern) {
 template <Format F>
 size_t mismatchesOf(uint32_t first, uint32_t last, uint32_t step) {
     constexpr uint32_t kPatterns = 1u << 16;
-    constexpr int kWidth = NumberTraits<NarrowLanes>::lanes;
+    constexpr int kWidth = Number<NarrowLanes>::lanes;
     using R = Rounded<F, Lanes<double, kWidth>>;
     const EmulatedScope scope(F);
     size_t mismatches = 0;
@@ -225,8 +225,8 @@ size_t mismatchesOf(uint32_t first, uint32_t last, uint32_t step) {
     };
     for (uint32_t pattern = first; pattern < last; pattern += kWidth) {
         const auto values = [&](int i) { return numberOfPattern<F>(pattern + static_cast<uint32_t>(i)); };
-        const auto a = generateNumber<NarrowLanes>(values);
-        const auto exactA = generateNumber<R>(values);
+        const auto a = Number<NarrowLanes>::generate(values);
+        const auto exactA = Number<R>::generate(values);
         compare(a, exactA);
         compare(squareRoot(a), squareRoot(exactA));
         compare(floorOf(a), floorOf(exactA));

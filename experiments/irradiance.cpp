@@ -12,6 +12,7 @@
 #include "lighting/tone_map.h"
 #include "numeric/door.h"
 #include "numeric/text.h"
+#include "numeric/vectors.h"
 #include "probes/convert.h"
 #include "probes/harmonics_lobes.h"
 #include "probes/light_passes.h"
@@ -21,7 +22,6 @@
 namespace etalon::experiments {
 namespace {
 
-constexpr double kPi = 0x1.921fb54442d18p+1;
 constexpr Arithmetic kDouble = Arithmetic::fp64;
 
 // The directions of the comparison, and those of the pictures.

@@ -15,6 +15,7 @@
 #include "numeric/door.h"
 #include "numeric/random.h"
 #include "numeric/text.h"
+#include "numeric/vectors.h"
 #include "probes/irradiance.h"
 #include "probes/light_filter.h"
 #include "probes/light_passes.h"
@@ -25,7 +26,6 @@ namespace etalon::experiments {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr double kPi = 0x1.921fb54442d18p+1;
 
 // ---- What lights give, against the truth.
 

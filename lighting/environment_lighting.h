@@ -1,10 +1,11 @@
 // Diffuse light of the environment, over a number type T.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "lighting/surface_scene.h"
-#include "numeric/number_lanes.h"
+#include "numeric/number.h"
 #include "probes/irradiance.h"
 #include "raster/cube_face.h"
 #include "raster/texture.h"
@@ -58,22 +59,19 @@ class EnvironmentLighting {
   private:
     using Harmonics = HarmonicsKernel<T>;
     using Cube = CubeFaceKernel<T>;
-    using Stored = TexelStorage<T>;
+    using Kept = typename Number<T>::Kept;
 
     // A vector as T is stored, the same in every lane.
     void store(const glm::dvec3& v) {
         for (int c = 0; c < 3; c++) {
-            Stored lanes[NumberTraits<T>::lanes];
-            TexelFetch<T>::store(kernel_.flooredTerm(T(v[c])), lanes, NumberTraits<T>::lanes);
+            std::array<Kept, Number<T>::lanes> lanes;
+            Number<T>::storeKept(kernel_.flooredTerm(T(v[c])), lanes.data());
             texels_.push_back(lanes[0]);
         }
     }
-    vec3 load(size_t i) const { return {number(texels_[i]), number(texels_[i + 1]), number(texels_[i + 2])}; }
-    static T number(Stored value) {
-        if constexpr (requires { T::ofRepresentable(Lanes<Stored, NumberTraits<T>::lanes>(value)); })
-            return T::ofRepresentable(Lanes<Stored, NumberTraits<T>::lanes>(value));
-        else
-            return T(static_cast<double>(value));
+    vec3 load(size_t i) const {
+        const auto number = [&](size_t j) { return Number<T>::broadcast(texels_[j]); };
+        return {number(i), number(i + 1), number(i + 2)};
     }
 
     const EnvironmentLight& light_;
@@ -81,7 +79,7 @@ class EnvironmentLighting {
     Harmonics harmonics_;
     IrradianceKernel<T> kernel_;
     Cube cube_;
-    std::vector<Stored> texels_;  // direction and flux of each
+    std::vector<Kept> texels_;  // direction and flux of each
 };
 
 }  // namespace etalon

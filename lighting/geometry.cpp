@@ -6,6 +6,7 @@
 #include "numeric/check.h"
 #include "numeric/door.h"
 #include "numeric/parallel.h"
+#include "numeric/transform.h"
 
 namespace etalon {
 namespace {
@@ -30,12 +31,6 @@ void placeAll(RasterReal real, int threads, const TransformRows& rows, const std
     });
 }
 
-double determinant(const glm::dmat4& m) {
-    return m[0][0] * (m[1][1] * m[2][2] - m[2][1] * m[1][2]) -
-           m[1][0] * (m[0][1] * m[2][2] - m[2][1] * m[0][2]) +
-           m[2][0] * (m[0][1] * m[1][2] - m[1][1] * m[0][2]);
-}
-
 }  // namespace
 
 std::vector<PlacedMesh> placeMeshes(const SurfaceScene& scene, RasterReal vertexReal, int threads) {
@@ -51,7 +46,7 @@ std::vector<PlacedMesh> placeMeshes(const SurfaceScene& scene, RasterReal vertex
                      mesh.normals.size(), mesh.uv_m.size());
         PlacedMesh& result = placed[i];
         result.mesh = &mesh;
-        result.mirrored = determinant(instance.toWorld) < 0;
+        result.mirrored = determinant3(instance.toWorld) < 0;
         const glm::dmat4& m = instance.toWorld;
         const glm::dmat3& n = instance.normalToWorld;
         TransformRows rows, normalRows;

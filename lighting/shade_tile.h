@@ -11,7 +11,7 @@
 #include "lighting/shading_passes.h"
 #include "lighting/surface_lighting.h"
 #include "lighting/tile_triangles.h"
-#include "numeric/number_lanes.h"
+#include "numeric/number.h"
 #include "raster/fragments.h"
 
 namespace etalon {
@@ -27,9 +27,9 @@ class TileShaderOf final : public TileShader {
   private:
     using K = ShadingKernels<T>;
     using vec3 = typename K::vec3;
-    static constexpr int N = NumberTraits<T>::lanes;
+    static constexpr int N = Number<T>::lanes;
 
-    using Stored = TexelStorage<T>;
+    using Stored = typename Number<T>::Stored;
     using Triangles = TileTriangles<T>;
     using Weights = typename Triangles::Weights;
 
@@ -64,7 +64,7 @@ class TileShaderOf final : public TileShader {
         size_t first;
         bool casts(size_t light) const { return shader.casts_[light]; }
         T visibility(size_t light) const {
-            return TexelFetch<T>::contiguous(&shader.visibility_[light * kChunk + first]);
+            return Number<T>::load(&shader.visibility_[light * kChunk + first]);
         }
     };
     // Fragments whose visibility is found at once, in whole groups.
@@ -348,7 +348,7 @@ typename TileShaderOf<T>::Lighting::Surroundings TileShaderOf<T>::surroundingsOf
                                                                                  const Group& group) const {
     if (job_.vertexRadiance) return {triangles_.open(w, group.lanes), constant(glm::dvec3(0))};
     const auto load = [&](const auto& valueOf) {
-        return generateNumber<T>([&](int i) {
+        return Number<T>::generate([&](int i) {
             const size_t last = group.fragments.size() - 1;
             return valueOf((*occlusion_)[group.number + std::min(static_cast<size_t>(i), last)]);
         });
@@ -363,8 +363,8 @@ void TileShaderOf<T>::setPoints(const Group& group, const Surface& surface, size
     const auto active = static_cast<int>(group.fragments.size());
     for (int c = 0; c < 3; c++) {
         const auto component = static_cast<size_t>(c);
-        TexelFetch<T>::store(surface.position[c], &points_.position_m[component][first], active);
-        TexelFetch<T>::store(surface.normal[c], &points_.normal[component][first], active);
+        Number<T>::store(surface.position[c], &points_.position_m[component][first], active);
+        Number<T>::store(surface.normal[c], &points_.normal[component][first], active);
     }
     const int n = job_.target->format.subpixelBits;
     for (size_t i = 0; i < group.fragments.size(); i++) {
@@ -391,7 +391,8 @@ void TileShaderOf<T>::shadeBackground(const Group& group) {
     const View& view = *job_.view;
     const int n = job_.target->format.subpixelBits;
     const auto centre = [&](const std::array<int32_t, N>& position_subpx) {
-        return generateNumber<T>([&](int i) { return (position_subpx[static_cast<size_t>(i)] >> n) + 0.5; });
+        return Number<T>::generate(
+            [&](int i) { return (position_subpx[static_cast<size_t>(i)] >> n) + 0.5; });
     };
     const T x = centre(group.lanes.x_subpx), y = centre(group.lanes.y_subpx);
     const vec3 ray = kernels_.viewRay(x, y, T(view.centreX_px), T(view.centreY_px), constant(view.forward),
@@ -505,11 +506,11 @@ void TileShaderOf<T>::put(ShadeOutput output, const Group& group, vec3 v) {
     for (int c = 0; c < 3; c++) {
         Stored* to = values(output, c);
         if (group.isRun()) {
-            TexelFetch<T>::store(v[c], to + group.fragments.front(), active);
+            Number<T>::store(v[c], to + group.fragments.front(), active);
             continue;
         }
         std::array<Stored, N> lanes;
-        TexelFetch<T>::store(v[c], lanes.data(), N);
+        Number<T>::store(v[c], lanes.data(), N);
         for (size_t i = 0; i < group.fragments.size(); i++) to[group.fragments[i]] = lanes[i];
     }
 }
@@ -529,7 +530,7 @@ void TileShaderOf<T>::resolve(ShadeOutput output, const PixelRectangle& rectangl
             for (int c = 0; c < 3; c++) {
                 const Stored* from = values(output, c);
                 const auto sample = [&](size_t s) {
-                    return generateNumber<T>([&](int i) {
+                    return Number<T>::generate([&](int i) {
                         const size_t pixel = firstPixel + static_cast<size_t>(std::min(i, active - 1));
                         return static_cast<double>(from[tile_.fragmentOf(pixel, s, samples)]);
                     });
@@ -537,7 +538,7 @@ void TileShaderOf<T>::resolve(ShadeOutput output, const PixelRectangle& rectangl
                 T sum = sample(0);
                 for (size_t s = 1; s < samples; s++) sum = kernels_.resolveAdd(sum, sample(s));
                 sum = kernels_.resolveMean(sum, reciprocal);
-                TexelFetch<T>::store(
+                Number<T>::store(
                     sum, &image.at(rectangle.x0 + static_cast<int>(first), rectangle.y0 + row, c), active);
             }
         });

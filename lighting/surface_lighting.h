@@ -129,7 +129,7 @@ class SurfaceLighting {
     }
 
     void addLights(const Request& request, std::span<const Light> lights, Reflected& total) {
-        if constexpr (kIsNativeNumber<T>)
+        if constexpr (Number<T>::isNative)
             addLightsFlattened(request, lights, total);
         else
             addEachLight(request, lights, total);

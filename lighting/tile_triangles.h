@@ -12,7 +12,7 @@
 #include "lighting/geometry.h"
 #include "lighting/shading_kernels.h"
 #include "lighting/vertex_lighting.h"
-#include "numeric/number_lanes.h"
+#include "numeric/number.h"
 #include "raster/fragments.h"
 #include "raster/setup.h"
 
@@ -25,7 +25,7 @@ class TileTriangles {
   public:
     using K = ShadingKernels<T>;
     using vec3 = typename K::vec3;
-    static constexpr int N = NumberTraits<T>::lanes;
+    static constexpr int N = Number<T>::lanes;
 
     // The triangles of a group's fragments, and where these are shaded.
     struct Group {
@@ -61,7 +61,7 @@ class TileTriangles {
     }
 
   private:
-    using Stored = TexelStorage<T>;
+    using Stored = typename Number<T>::Stored;
     using Row = Lanes<Stored, N>;
     using Whole = Lanes<uint32_t, N>;
 
@@ -178,8 +178,7 @@ void TileTriangles<T>::storeWords(const double* words, size_t count, Stored* to)
     if constexpr (std::is_same_v<T, Lanes<float, N>> || std::is_same_v<T, float>)
         for (size_t i = 0; i < count; i++) to[i] = static_cast<float>(words[i]);
     else
-        for (size_t i = 0; i < count; i += N)
-            TexelFetch<T>::store(TexelFetch<T>::contiguous(&words[i]), to + i, N);
+        for (size_t i = 0; i < count; i += N) Number<T>::store(Number<T>::load(&words[i]), to + i, N);
 }
 
 template <class T>
@@ -284,7 +283,7 @@ typename TileTriangles<T>::vec3 TileTriangles<T>::edgeValues(const Group& group,
         }
     }
     const auto scaled = [&](size_t edge) {
-        return generateNumber<T>([&](int i) {
+        return Number<T>::generate([&](int i) {
             return edgeValue(group, static_cast<size_t>(i), edge) * static_cast<double>(areaScale[i]);
         });
     };

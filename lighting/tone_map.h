@@ -52,7 +52,7 @@ inline constexpr double kToneMapFloatErrorLsb = 0x1p-12;
 template <class T>
 Image<uint8_t> toneMap(const Image<float>& radiance, ToneMap operation, double exposureStops,
                        int threads = 0) {
-    constexpr int kWidth = NumberTraits<T>::lanes;
+    constexpr int kWidth = Number<T>::lanes;
     const T exposure(exposureScale(exposureStops));
     Image<uint8_t> bytes(radiance.width(), radiance.height(), radiance.channels());
     const auto rows = static_cast<size_t>(radiance.height()) * static_cast<size_t>(radiance.channels());
@@ -65,7 +65,7 @@ Image<uint8_t> toneMap(const Image<float>& radiance, ToneMap operation, double e
         uint8_t* to = bytes.values().data() + r * width;
         ToneMapKernel<T> kernel;
         forEachLaneGroup<kWidth>(width, [&](size_t first, int active) {
-            const T value = TexelFetch<T>::contiguous(row.data() + first);
+            const T value = Number<T>::load(row.data() + first);
             const auto byte = kernel.displayByte(value, exposure, static_cast<int>(operation));
             for (int i = 0; i < active; i++) {
                 if constexpr (kWidth == 1)

@@ -2,7 +2,7 @@
 
 #include "numeric/door.h"
 #include "numeric/kernel_types.h"
-#include "numeric/number_lanes.h"
+#include "numeric/number.h"
 
 namespace etalon {
 namespace {
@@ -23,13 +23,13 @@ void transformAll(const TransformRows& rows, std::span<const Point> from, Write 
     const auto toLanes = [](const glm::dvec4& row) { return vec4(T(row.x), T(row.y), T(row.z), T(row.w)); };
     const vec4 row0 = toLanes(rows[0]), row1 = toLanes(rows[1]), row2 = toLanes(rows[2]),
                row3 = toLanes(rows[3]);
-    forEachLaneGroup<NumberTraits<T>::lanes>(from.size(), [&](size_t first, int active) {
+    forEachLaneGroup<Number<T>::lanes>(from.size(), [&](size_t first, int active) {
         const auto item = [&](int lane) -> const Point& {
             return from[first + static_cast<size_t>(lane < active ? lane : active - 1)];
         };
-        const typename Kernels::vec3 p(generateNumber<T>([&](int i) { return item(i).x; }),
-                                       generateNumber<T>([&](int i) { return item(i).y; }),
-                                       generateNumber<T>([&](int i) { return item(i).z; }));
+        const typename Kernels::vec3 p(Number<T>::generate([&](int i) { return item(i).x; }),
+                                       Number<T>::generate([&](int i) { return item(i).y; }),
+                                       Number<T>::generate([&](int i) { return item(i).z; }));
         const vec4 q = kernels.transformPoint(row0, row1, row2, row3, p);
         for (int i = 0; i < active; i++)
             write(first + static_cast<size_t>(i),

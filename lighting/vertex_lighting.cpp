@@ -2,7 +2,7 @@
 
 #include "lighting/surface_lighting.h"
 #include "numeric/door.h"
-#include "numeric/number_lanes.h"
+#include "numeric/number.h"
 
 namespace etalon {
 namespace {
@@ -16,13 +16,13 @@ void lightIn(const Profile& profile, const LightSources& sources, const SurfaceM
     using vec3 = typename Lighting::vec3;
     Lighting lighting(sources, samplerOf(profile));
     typename Lighting::K kernels;
-    forEachLaneGroup<NumberTraits<T>::lanes>(count, [&](size_t first, int active) {
+    forEachLaneGroup<Number<T>::lanes>(count, [&](size_t first, int active) {
         const auto vertex = [&](int lane) {
             return begin + first + static_cast<size_t>(lane < active ? lane : active - 1);
         };
         const auto load = [&](const auto& values) {
             const auto component = [&](int c) {
-                return generateNumber<T>([&](int i) { return values[vertex(i)][c]; });
+                return Number<T>::generate([&](int i) { return values[vertex(i)][c]; });
             };
             return vec3(component(0), component(1), component(2));
         };
@@ -34,7 +34,7 @@ void lightIn(const Profile& profile, const LightSources& sources, const SurfaceM
         const vec3 position = load(placed.positions);
         const vec3 toEye = kernels.unit3(kernels.sub3(Lighting::constant(eye), position));
         const auto coordinate = [&](int c) {
-            return generateNumber<T>(
+            return Number<T>::generate(
                 [&](int i) { return placed.mesh->uv_m.empty() ? 0.0 : placed.mesh->uv_m[vertex(i)][c]; });
         };
         const vec3 surface = lighting.surfaceColour(material, coordinate(0), coordinate(1));
@@ -44,9 +44,9 @@ void lightIn(const Profile& profile, const LightSources& sources, const SurfaceM
             if (occlusion) {
                 const std::vector<Occlusion>& of = (*occlusion)[side];
                 const auto bent = [&](int c) {
-                    return generateNumber<T>([&](int i) { return of[vertex(i)].bentNormal[c]; });
+                    return Number<T>::generate([&](int i) { return of[vertex(i)].bentNormal[c]; });
                 };
-                surroundings.open = generateNumber<T>([&](int i) { return of[vertex(i)].open; });
+                surroundings.open = Number<T>::generate([&](int i) { return of[vertex(i)].open; });
                 surroundings.bentNormal = vec3(bent(0), bent(1), bent(2));
                 for (int i = 0; i < active; i++) to.open[vertex(i)] = numberLane(surroundings.open, i);
             }

@@ -3,22 +3,19 @@
 #include <cmath>
 
 #include "numeric/check.h"
+#include "numeric/vectors.h"
 
 namespace etalon {
 namespace {
 
-double dot(const glm::dvec3& a, const glm::dvec3& b) { return a.x * b.x + (a.y * b.y + a.z * b.z); }
-
-// The row that maps a world point p to dot(axis, p - eye).
+// The row that maps a world point p to dotOf(axis, p - eye).
 glm::dvec4 alongAxis(const glm::dvec3& axis, const glm::dvec3& eye) {
-    return glm::dvec4(axis.x, axis.y, axis.z, -dot(axis, eye));
+    return glm::dvec4(axis.x, axis.y, axis.z, -dotOf(axis, eye));
 }
 
 glm::dvec4 combine(double a, const glm::dvec4& p, double b, const glm::dvec4& q) {
     return glm::dvec4(a * p.x + b * q.x, a * p.y + b * q.y, a * p.z + b * q.z, a * p.w + b * q.w);
 }
-
-glm::dvec3 scaled(const glm::dvec3& a, double s) { return glm::dvec3(a.x * s, a.y * s, a.z * s); }
 
 // z / w is 0 at the near and 1 at the far plane: z = (w - near) far / (far - near).
 glm::dvec4 depthRow(const glm::dvec4& wRow, double near_m, double far_m) {
@@ -41,7 +38,7 @@ View cameraView(const PinholeCamera& camera) {
     view.eye = camera.position;
     const glm::dvec4 right = alongAxis(camera.right, camera.position);
     const glm::dvec4 up = alongAxis(camera.up, camera.position);
-    const glm::dvec4 w = alongAxis(scaled(camera.backward, -1.0), camera.position);
+    const glm::dvec4 w = alongAxis(scaledBy(camera.backward, -1.0), camera.position);
     // Pixel x = cx + fx right / w, pixel y = cy - fy up / w, then to [-1, 1].
     view.worldToClip[0] =
         combine(2.0 * camera.fx / camera.width, right, 2.0 * camera.cx / camera.width - 1.0, w);
@@ -51,9 +48,9 @@ View cameraView(const PinholeCamera& camera) {
     view.worldToClip[3] = w;
     view.centreX_px = camera.cx;
     view.centreY_px = camera.cy;
-    view.forward = scaled(camera.backward, -1.0);
-    view.perX = scaled(camera.right, 1.0 / camera.fx);
-    view.perY = scaled(camera.up, -1.0 / camera.fy);
+    view.forward = scaledBy(camera.backward, -1.0);
+    view.perX = scaledBy(camera.right, 1.0 / camera.fx);
+    view.perY = scaledBy(camera.up, -1.0 / camera.fy);
     view.near_m = camera.near_m;
     return view;
 }
@@ -83,13 +80,13 @@ View cubeFaceView(CubeFace face, int size, const glm::dvec3& eye, double near_m,
     view.eye = eye;
     const glm::dvec4 w = alongAxis(axes.major, eye);
     view.worldToClip[0] = alongAxis(axes.s, eye);
-    view.worldToClip[1] = alongAxis(scaled(axes.t, -1.0), eye);
+    view.worldToClip[1] = alongAxis(scaledBy(axes.t, -1.0), eye);
     view.worldToClip[2] = depthRow(w, near_m, far_m);
     view.worldToClip[3] = w;
     view.centreX_px = view.centreY_px = size / 2.0;
     view.forward = axes.major;
-    view.perX = scaled(axes.s, 2.0 / size);
-    view.perY = scaled(axes.t, 2.0 / size);
+    view.perX = scaledBy(axes.s, 2.0 / size);
+    view.perY = scaledBy(axes.t, 2.0 / size);
     view.mirrored = true;
     view.near_m = near_m;
     return view;

@@ -347,11 +347,13 @@ template <>
 struct NumberTraits<Emulated<double>> {
     static constexpr int lanes = 1;
     using Integer = int32_t;
+    using Stored = double;
 };
 template <int N>
 struct NumberTraits<Emulated<Lanes<double, N>>> {
     static constexpr int lanes = N;
     using Integer = Lanes<int32_t, N>;
+    using Stored = double;
 };
 
 // Truncates; the value must be inside int32.

@@ -15,18 +15,20 @@
 
 namespace etalon {
 
-// Number of values that a T holds side by side; the scalar it is stored as; the integer type that goes with
-// it. Number types of other headers specialise this.
+// Number of values that a T holds side by side, the integer type that goes with it, the scalar that it is stored
+// as. Number types of other headers specialise this; host code uses Number<T> (numeric/number.h).
 template <class T>
 struct NumberTraits {
     static_assert(std::is_floating_point_v<T>);
     static constexpr int lanes = 1;
     using Integer = int32_t;
+    using Stored = T;
 };
 template <class S, int N>
 struct NumberTraits<Lanes<S, N>> {
     static constexpr int lanes = N;
     using Integer = Lanes<int32_t, N>;
+    using Stored = S;
 };
 
 // The elementary functions for a number type: numeric/elementary.h.

@@ -150,11 +150,13 @@ template <>
 struct NumberTraits<Narrow<float>> {
     static constexpr int lanes = 1;
     using Integer = int32_t;
+    using Stored = float;
 };
 template <int N>
 struct NumberTraits<Narrow<Lanes<float, N>>> {
     static constexpr int lanes = N;
     using Integer = Lanes<int32_t, N>;
+    using Stored = float;
 };
 
 // Truncates; the value must be inside int32.

@@ -227,11 +227,13 @@ template <Format F>
 struct NumberTraits<Rounded<F, double>> {
     static constexpr int lanes = 1;
     using Integer = int32_t;
+    using Stored = double;
 };
 template <Format F, int N>
 struct NumberTraits<Rounded<F, Lanes<double, N>>> {
     static constexpr int lanes = N;
     using Integer = Lanes<int32_t, N>;
+    using Stored = double;
 };
 
 // Truncates; the value must be inside int32.

@@ -7,8 +7,6 @@ namespace etalon {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 glm::dvec3 column(const glm::dmat4& m, int i) { return {m[i].x, m[i].y, m[i].z}; }
 
 glm::dmat4 fromColumns(const glm::dvec3& x, const glm::dvec3& y, const glm::dvec3& z, const glm::dvec3& t) {
@@ -16,24 +14,9 @@ glm::dmat4 fromColumns(const glm::dvec3& x, const glm::dvec3& y, const glm::dvec
             glm::dvec4(t.x, t.y, t.z, 1)};
 }
 
-glm::dvec3 scaled(const glm::dvec3& a, double s) { return {a.x * s, a.y * s, a.z * s}; }
 glm::dvec3 added(const glm::dvec3& a, const glm::dvec3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 
 }  // namespace
-
-double dotOf(const glm::dvec3& a, const glm::dvec3& b) { return a.x * b.x + (a.y * b.y + a.z * b.z); }
-
-glm::dvec3 crossOf(const glm::dvec3& a, const glm::dvec3& b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
-double lengthOf(const glm::dvec3& a) { return __builtin_sqrt(dotOf(a, a)); }
-
-glm::dvec3 unitOf(const glm::dvec3& a) {
-    const double length = lengthOf(a);
-    if (!(length > 0)) return a;
-    return {a.x / length, a.y / length, a.z / length};
-}
 
 SinCos sinCosOfDegrees(double degrees) {
     ETALON_CHECK(degrees >= -1e6 && degrees <= 1e6, "angle of {} degrees", degrees);
@@ -74,8 +57,8 @@ double determinant3(const glm::dmat4& m) { return dotOf(column(m, 0), crossOf(co
 
 glm::dvec3 transformNormal(const glm::dmat4& m, const glm::dvec3& n) {
     const glm::dvec3 x = column(m, 0), y = column(m, 1), z = column(m, 2);
-    const glm::dvec3 r =
-        added(scaled(crossOf(y, z), n.x), added(scaled(crossOf(z, x), n.y), scaled(crossOf(x, y), n.z)));
+    const glm::dvec3 r = added(scaledBy(crossOf(y, z), n.x),
+                               added(scaledBy(crossOf(z, x), n.y), scaledBy(crossOf(x, y), n.z)));
     return determinant3(m) < 0 ? glm::dvec3(-r.x, -r.y, -r.z) : r;
 }
 
@@ -120,7 +103,7 @@ glm::dmat4 lookAt(const glm::dvec3& position, const glm::dvec3& target, const gl
 
 glm::dmat4 orthonormalised(const glm::dmat4& m) {
     const glm::dvec3 z = unitOf(column(m, 2)), yGiven = column(m, 1);
-    const glm::dvec3 y = unitOf(added(yGiven, scaled(z, 0 - dotOf(yGiven, z))));
+    const glm::dvec3 y = unitOf(added(yGiven, scaledBy(z, 0 - dotOf(yGiven, z))));
     return fromColumns(crossOf(y, z), y, z, column(m, 3));
 }
 

@@ -5,19 +5,9 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 
+#include "numeric/vectors.h"
+
 namespace etalon {
-
-// a.x b.x + (a.y b.y + a.z b.z).
-double dotOf(const glm::dvec3& a, const glm::dvec3& b);
-
-// Right-handed cross product; component x is a.y b.z - a.z b.y, the others by rotation of the letters.
-glm::dvec3 crossOf(const glm::dvec3& a, const glm::dvec3& b);
-
-// sqrt(dotOf(a, a)); components up to 1e150 in magnitude.
-double lengthOf(const glm::dvec3& a);
-
-// a / |a|. The zero vector comes back unchanged.
-glm::dvec3 unitOf(const glm::dvec3& a);
 
 // Sine and cosine of an angle in degrees, |degrees| <= 1e6. Multiples of 90 degrees are exact; elsewhere
 // within 4 units in the last place (sinOf and cosOf of numeric/elementary.h after an exact reduction to +-45

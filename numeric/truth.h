@@ -68,6 +68,7 @@ template <>
 struct NumberTraits<Truth> {
     static constexpr int lanes = 1;
     using Integer = int32_t;
+    using Stored = double;
 };
 // Truncates; the value must be inside int32.
 int32_t toInteger(const Truth& a);

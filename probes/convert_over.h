@@ -53,7 +53,7 @@ class ConversionWriter {
         return kernel.mappingPoint(direction, sampling_.source);
     }
     Sample sampleAt(Kernel& kernel, const Point& p) const {
-        if constexpr (kIsNativeNumber<T>)
+        if constexpr (Number<T>::isNative)
             return sampleFlattened(kernel, p);
         else
             return kernel.sampleProbe(radiance_, shown_, p, sampling_);
@@ -68,25 +68,25 @@ class ConversionWriter {
             const int from = static_cast<int>(first), to = from + active;
             T isOnImage(1.0);
             if (from < on.first || to > on.last)
-                isOnImage = generateNumber<T>(
+                isOnImage = Number<T>::generate(
                     [&](int lane) { return from + lane >= on.first && from + lane < on.last ? 1.0 : 0.0; });
             sample = kernel.blackIfHidden(sample, isOnImage);
             std::array<float, kWidth> isValid;
-            TexelFetch<T>::store(kernel.asNumber(sample.isShown), isValid.data(), active);
+            Number<T>::store(kernel.asNumber(sample.isShown), isValid.data(), active);
             uint8_t* valid = result_.valid[l].row(y).data() + first;
             for (int lane = 0; lane < active; lane++)
                 valid[lane] = isValid[static_cast<size_t>(lane)] != 0.0f ? 1 : 0;
         }
         for (int c = 0; c < 3; c++)
-            TexelFetch<T>::store(sample.rgb[c], result_.radiance[l].row(y, c).data() + first, active);
+            Number<T>::store(sample.rgb[c], result_.radiance[l].row(y, c).data() + first, active);
         if (job_.distance_m.empty()) return;
-        TexelFetch<T>::store(
+        Number<T>::store(
             kernel.nearestDistance(distance_m_, shown_, middle(), sampling_, nearest_, sample.isShown),
             result_.distance_m[l].row(y).data() + first, active);
     }
 
   private:
-    static constexpr int kWidth = NumberTraits<T>::lanes;
+    static constexpr int kWidth = Number<T>::lanes;
 
     // Texels' coordinates stay in registers: as calls, the steps of the text pass them through memory.
     [[gnu::flatten]] Sample sampleFlattened(Kernel& kernel, const Point& p) const {
@@ -106,7 +106,7 @@ template <class T>
 void convertTexels(const ConversionJob& job, const ConversionWriter<T>& writer) {
     using Kernel = ConversionKernel<T>;
     using vec3 = typename Kernel::vec3;
-    constexpr int kWidth = NumberTraits<T>::lanes;
+    constexpr int kWidth = Number<T>::lanes;
     std::array<vec3, 3> turn;
     for (int row = 0; row < 3; row++)
         turn[static_cast<size_t>(row)] = {T(job.turn[0][row]), T(job.turn[1][row]), T(job.turn[2][row])};
@@ -151,8 +151,8 @@ void convertTexels(const ConversionJob& job, const ConversionWriter<T>& writer) 
 template <class T>
 void convertMirrored(const ConversionJob& job, const ConversionWriter<T>& writer) {
     using Kernel = ConversionKernel<T>;
-    using Stored = TexelStorage<T>;
-    constexpr int kWidth = NumberTraits<T>::lanes;
+    using Stored = typename Number<T>::Stored;
+    constexpr int kWidth = Number<T>::lanes;
     const MirroredAngles<T> angles(job.target);
     const int size = job.target.width;
     parallelForRowBlocks(size / 2, job.threads, [&](int y0, int y1) {
@@ -187,7 +187,7 @@ template <class T>
 void latLongFromCubeImage(const CubeMap<float>& cube, const LatLongFromCube& options, int threads,
                           Image<float>& latLong) {
     using Kernel = ConversionKernel<T>;
-    constexpr int kWidth = NumberTraits<T>::lanes;
+    constexpr int kWidth = Number<T>::lanes;
     const TextureView texture(cube);
     const auto sampling = samplingOf<Kernel>({options.filter, Wrap::clamp, Wrap::clamp, options.fractionBits},
                                              cube.size(), cube.size());
@@ -204,7 +204,7 @@ void latLongFromCubeImage(const CubeMap<float>& cube, const LatLongFromCube& opt
                                      ? kernel.sampleCubeRgbAt(texture, c, sampling)
                                      : kernel.sampleRgb(texture, c.face, c.s, c.t, sampling);
                 for (int channel = 0; channel < 3; channel++)
-                    TexelFetch<T>::store(rgb[channel], latLong.row(y, channel).data() + first, active);
+                    Number<T>::store(rgb[channel], latLong.row(y, channel).data() + first, active);
             }
         });
     });

@@ -6,6 +6,7 @@
 
 #include "numeric/check.h"
 #include "numeric/elementary.h"
+#include "numeric/vectors.h"
 #include "probes/texel_grid.h"
 
 namespace etalon {
@@ -134,7 +135,6 @@ DominantLight lightOf(const Probe& probe, const CoarseImage& image, const std::v
     light.position_m = positionOf(probe, image, brightest);
     result.peakBrightness = image.texels[brightest].brightness;
     // A cone of half angle a has 2 pi (1 - cos a) = 4 pi sin^2(a / 2).
-    constexpr double kPi = 0x1.921fb54442d18p+1;
     const double sine = std::sqrt(std::min(1.0, light.solidAngle_sr / (4.0 * kPi)));
     result.angularRadius_rad = 2.0 * atan2Of(sine, std::sqrt((1.0 - sine) * (1.0 + sine)));
     return result;

@@ -20,7 +20,7 @@
 
 #include "numeric/format.h"
 #include "numeric/kernel_types.h"
-#include "numeric/number_lanes.h"
+#include "numeric/number.h"
 #include "numeric/rounded.h"
 #include "probes/texel_grid.h"
 #include "raster/texture.h"
@@ -55,57 +55,6 @@ struct TermLimits<Emulated<D>> {
 };
 template <class D>
 struct TermLimits<Narrow<D>> : TermLimits<Emulated<double>> {};
-
-// How numbers of the arithmetic T are kept between steps of a sum, exactly: one scalar per lane.
-template <class T>
-using StoredTerm = std::conditional_t<NumberTraits<T>::lanes == 1, T, TexelStorage<T>>;
-
-// The numbers kept from `from` on, one per lane.
-template <class T>
-T loadTerms(const StoredTerm<T>* from) {
-    if constexpr (NumberTraits<T>::lanes == 1)
-        return *from;
-    else if constexpr (requires { T::ofRepresentable(T::load(from)); })
-        return T::load(from);
-    else if constexpr (requires(T t) { T::ofRepresentable(t.v); })
-        return T::ofRepresentable(decltype(T::v)::load(from));
-    else
-        return T::load(from);
-}
-// One number in each lane.
-template <class T>
-T broadcastTerm(const StoredTerm<T>& value) {
-    if constexpr (NumberTraits<T>::lanes == 1)
-        return value;
-    else if constexpr (requires(T t) { T::ofRepresentable(t.v); })
-        return T::ofRepresentable(decltype(T::v)(value));
-    else
-        return T(static_cast<double>(value));
-}
-template <class T>
-void storeTerms(const T& value, StoredTerm<T>* to) {
-    if constexpr (NumberTraits<T>::lanes == 1)
-        *to = value;
-    else
-        TexelFetch<T>::store(value, to, NumberTraits<T>::lanes);
-}
-// Floats or doubles rounded once to T, one per lane; register by register where TexelFetch would go lane by
-// lane.
-template <class T, class Stored>
-T loadRounded(const Stored* from) {
-    constexpr int kWidth = NumberTraits<T>::lanes;
-    if constexpr (kWidth == 1)
-        return T(static_cast<double>(*from));
-    else if constexpr (std::is_same_v<T, Lanes<Stored, kWidth>>)
-        return T::load(from);
-    else if constexpr (std::is_same_v<T, Lanes<float, kWidth>>)
-        return joinLanes(convertLanes<float>(Lanes<double, kWidth / 2>::load(from)),
-                         convertLanes<float>(Lanes<double, kWidth / 2>::load(from + kWidth / 2)));
-    else if constexpr (std::is_same_v<T, Narrow<Lanes<Stored, kWidth>>>)
-        return T(Lanes<Stored, kWidth>::load(from));
-    else
-        return T(convertLanes<double>(Lanes<Stored, kWidth>::load(from)));
-}
 
 // One row of texels of a probe: directions in the world, weights, radiance. All are `padded` long, a multiple
 // of kTexelGroup; what lies behind the width is black and weighs nothing.

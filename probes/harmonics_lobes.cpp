@@ -6,13 +6,12 @@
 
 #include "numeric/check.h"
 #include "numeric/elementary.h"
+#include "numeric/vectors.h"
 #include "probes/latlong.h"
 
 namespace etalon {
 
 namespace {
-
-constexpr double kPi = 0x1.921fb54442d18p+1;
 
 // The integrals of t^s P_l(t) over [0, 1].
 std::vector<double> powerMoments(int degree, double s) {

@@ -12,21 +12,21 @@ namespace {
 // sums; in a block three channels for each coefficient.
 template <class T>
 void addRowHarmonics(HarmonicsKernel<T>& kernel, const TexelRow& row, int degree, size_t block,
-                     std::vector<T>& accumulators, std::vector<StoredTerm<T>>& sums) {
-    constexpr int kWidth = NumberTraits<T>::lanes;
+                     std::vector<T>& accumulators, std::vector<typename Number<T>::Kept>& sums) {
+    constexpr int kWidth = Number<T>::lanes;
     static_assert(kTexelGroup % kWidth == 0);
     const auto count = static_cast<size_t>(harmonicCount(degree));
-    std::array<StoredTerm<T>, kWidth> lanes;
+    std::array<typename Number<T>::Kept, kWidth> lanes;
     for (int part = 0; part < kTexelGroup; part += kWidth) {
         std::fill(accumulators.begin(), accumulators.end(), T(0.0));
         for (size_t x = static_cast<size_t>(part); x < static_cast<size_t>(row.padded); x += kTexelGroup) {
             typename HarmonicsKernel<T>::vec3 direction, radiance;
             for (int c = 0; c < 3; c++) {
                 const auto channel = static_cast<size_t>(c);
-                direction[c] = loadRounded<T>(row.direction[channel].data() + x);
-                radiance[c] = loadRounded<T>(row.radiance[channel].data() + x);
+                direction[c] = Number<T>::load(row.direction[channel].data() + x);
+                radiance[c] = Number<T>::load(row.radiance[channel].data() + x);
             }
-            const auto flux = kernel.texelFlux(radiance, loadRounded<T>(row.weight.data() + x));
+            const auto flux = kernel.texelFlux(radiance, Number<T>::load(row.weight.data() + x));
             kernel.findHarmonics(direction, degree);
             T* to = accumulators.data();
             for (size_t i = 0; i < count; i++, to += 3) {
@@ -37,7 +37,7 @@ void addRowHarmonics(HarmonicsKernel<T>& kernel, const TexelRow& row, int degree
             }
         }
         for (size_t i = 0; i < 3 * count; i++) {
-            storeTerms<T>(accumulators[i], lanes.data());
+            Number<T>::storeKept(accumulators[i], lanes.data());
             for (int lane = 0; lane < kWidth; lane++)
                 sums[static_cast<size_t>(part + lane) * block + i] = lanes[static_cast<size_t>(lane)];
         }
@@ -46,20 +46,20 @@ void addRowHarmonics(HarmonicsKernel<T>& kernel, const TexelRow& row, int degree
 
 template <class T>
 SphericalHarmonics projectHarmonicsOver(const Probe& probe, int degree, int threads) {
-    constexpr size_t kWidth = NumberTraits<T>::lanes;
+    constexpr size_t kWidth = Number<T>::lanes;
     SphericalHarmonics result(degree);
     checkProbe(probe);
     const TexelGrid grid(probe.shape);
     const auto terms = 3 * result.coefficients.size();
     const size_t block = (terms + kWidth - 1) / kWidth * kWidth;
     const auto rows = static_cast<size_t>(probe.shape.layers() * probe.shape.height);
-    std::vector<StoredTerm<T>> rowSums(rows * block, StoredTerm<T>(0.0));
+    std::vector<typename Number<T>::Kept> rowSums(rows * block, typename Number<T>::Kept(0.0));
     parallelFor(rows, threads, [&](size_t r) {
         const int layer = static_cast<int>(r) / probe.shape.height;
         const TexelRow row = readTexels(probe, grid, layer, static_cast<int>(r) % probe.shape.height);
         HarmonicsKernel<T> kernel;
         std::vector<T> accumulators(terms);
-        std::vector<StoredTerm<T>> sums(kTexelGroup * block, StoredTerm<T>(0.0));
+        std::vector<typename Number<T>::Kept> sums(kTexelGroup * block, typename Number<T>::Kept(0.0));
         addRowHarmonics<T>(kernel, row, degree, block, accumulators, sums);
         foldTerms<T>(sums.data(), block, kTexelGroup);
         std::copy(sums.begin(), sums.begin() + static_cast<ptrdiff_t>(block),
@@ -74,7 +74,7 @@ SphericalHarmonics projectHarmonicsOver(const Probe& probe, int degree, int thre
 template <class T>
 std::vector<glm::dvec3> evaluateHarmonicsOver(const SphericalHarmonics& harmonics,
                                               std::span<const glm::dvec3> directions, int threads) {
-    constexpr size_t kWidth = NumberTraits<T>::lanes, kItem = 1024;
+    constexpr size_t kWidth = Number<T>::lanes, kItem = 1024;
     std::vector<glm::dvec3> values(directions.size());
     parallelFor((directions.size() + kItem - 1) / kItem, threads, [&](size_t item) {
         const size_t begin = item * kItem, end = std::min(directions.size(), begin + kItem);
@@ -83,7 +83,7 @@ std::vector<glm::dvec3> evaluateHarmonicsOver(const SphericalHarmonics& harmonic
         forEachLaneGroup<kWidth>(end - begin, [&](size_t first, int active) {
             typename HarmonicsKernel<T>::vec3 d;
             for (int c = 0; c < 3; c++)
-                d[c] = generateNumber<T>([&](int lane) {
+                d[c] = Number<T>::generate([&](int lane) {
                     return directions[begin + first + static_cast<size_t>(std::min(lane, active - 1))][c];
                 });
             const auto value = kernel.sumOfHarmonics(d, harmonics.degree);

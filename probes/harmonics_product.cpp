@@ -6,12 +6,11 @@
 
 #include "numeric/check.h"
 #include "numeric/elementary.h"
+#include "numeric/vectors.h"
 
 namespace etalon {
 
 namespace {
-
-constexpr double kPi = 0x1.921fb54442d18p+1;
 
 // 16 points of Gauss and Legendre integrate polynomials up to degree 31, above three times the largest
 // degree.

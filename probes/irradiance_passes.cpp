@@ -11,37 +11,37 @@ namespace {
 // What a texel adds, in the arithmetic: direction and flux.
 template <class T>
 struct TexelTerms {
-    StoredTerm<T> x, y, z, red, green, blue;
+    typename Number<T>::Kept x, y, z, red, green, blue;
 };
 
 // Of all texels in order, the last run filled up with black ones.
 template <class T>
 std::vector<TexelTerms<T>> texelTerms(const Probe& probe, int threads) {
-    constexpr int kWidth = NumberTraits<T>::lanes;
+    constexpr int kWidth = Number<T>::lanes;
     checkProbe(probe);
     const TexelGrid grid(probe.shape);
     const auto width = static_cast<size_t>(probe.shape.width);
     const auto rows = static_cast<size_t>(probe.shape.layers() * probe.shape.height);
     const size_t runs = (rows * width + kIrradianceRun - 1) / kIrradianceRun;
-    const StoredTerm<T> zero(0.0);
+    const typename Number<T>::Kept zero(0.0);
     std::vector<TexelTerms<T>> terms(runs * kIrradianceRun, {zero, zero, zero, zero, zero, zero});
     parallelFor(rows, threads, [&](size_t r) {
         const TexelRow row = readTexels(probe, grid, static_cast<int>(r) / probe.shape.height,
                                         static_cast<int>(r) % probe.shape.height);
         IrradianceKernel<T> kernel;
-        std::array<std::array<StoredTerm<T>, kWidth>, 6> lanes;
+        std::array<std::array<typename Number<T>::Kept, kWidth>, 6> lanes;
         forEachLaneGroup<kWidth>(width, [&](size_t first, int active) {
             typename IrradianceKernel<T>::vec3 direction, radiance;
             for (int c = 0; c < 3; c++) {
                 const auto channel = static_cast<size_t>(c);
-                direction[c] = loadRounded<T>(row.direction[channel].data() + first);
-                radiance[c] = loadRounded<T>(row.radiance[channel].data() + first);
+                direction[c] = Number<T>::load(row.direction[channel].data() + first);
+                radiance[c] = Number<T>::load(row.radiance[channel].data() + first);
             }
             const auto d = kernel.flooredTerm3(direction);
-            const auto flux = kernel.texelFlux(radiance, loadRounded<T>(row.weight.data() + first));
+            const auto flux = kernel.texelFlux(radiance, Number<T>::load(row.weight.data() + first));
             for (int c = 0; c < 3; c++) {
-                storeTerms<T>(d[c], lanes[static_cast<size_t>(c)].data());
-                storeTerms<T>(flux[c], lanes[static_cast<size_t>(c) + 3].data());
+                Number<T>::storeKept(d[c], lanes[static_cast<size_t>(c)].data());
+                Number<T>::storeKept(flux[c], lanes[static_cast<size_t>(c) + 3].data());
             }
             for (size_t i = 0; i < static_cast<size_t>(active); i++)
                 terms[r * width + first + i] = {lanes[0][i], lanes[1][i], lanes[2][i],
@@ -79,7 +79,7 @@ std::vector<glm::dvec3> irradianceAtOver(const Probe& probe, std::span<const glm
                                          int threads) {
     using Kernel = IrradianceKernel<T>;
     using vec3 = typename Kernel::vec3;
-    constexpr size_t kWidth = NumberTraits<T>::lanes;
+    constexpr size_t kWidth = Number<T>::lanes;
     // Groups of lanes that share a walk over the texels.
     constexpr size_t kGroups = 4, kItem = kGroups * kWidth;
     const std::vector<TexelTerms<T>> terms = texelTerms<T>(probe, threads);
@@ -89,7 +89,7 @@ std::vector<glm::dvec3> irradianceAtOver(const Probe& probe, std::span<const glm
         std::array<vec3, kGroups> normal;
         for (size_t g = 0; g < kGroups; g++) {
             for (int c = 0; c < 3; c++)
-                normal[g][c] = generateNumber<T>([&](int lane) {
+                normal[g][c] = Number<T>::generate([&](int lane) {
                     const size_t i = item * kItem + g * kWidth + static_cast<size_t>(lane);
                     return normals[std::min(i, normals.size() - 1)][c];
                 });
@@ -104,8 +104,10 @@ std::vector<glm::dvec3> irradianceAtOver(const Probe& probe, std::span<const glm
                 for (size_t i = first; i < first + kIrradianceRun; i++) {
                     const TexelTerms<T>& t = terms[i];
                     sum = kernel.addIrradiance(
-                        sum, n, {broadcastTerm<T>(t.x), broadcastTerm<T>(t.y), broadcastTerm<T>(t.z)},
-                        {broadcastTerm<T>(t.red), broadcastTerm<T>(t.green), broadcastTerm<T>(t.blue)});
+                        sum, n,
+                        {Number<T>::broadcast(t.x), Number<T>::broadcast(t.y), Number<T>::broadcast(t.z)},
+                        {Number<T>::broadcast(t.red), Number<T>::broadcast(t.green),
+                         Number<T>::broadcast(t.blue)});
                 }
                 sums[g].push(sum, add);
             }

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "numeric/number_lanes.h"
+#include "numeric/number.h"
 #include "numeric/parallel.h"
 
 namespace etalon {
@@ -21,9 +21,9 @@ class LanedColumns {
     // value(x, part) is a double; it is rounded once to T.
     template <class F>
     LanedColumns(int width, int parts, F&& value) : parts_(parts) {
-        for (int first = 0; first < width; first += NumberTraits<T>::lanes)
+        for (int first = 0; first < width; first += Number<T>::lanes)
             for (int part = 0; part < parts; part++)
-                values_.push_back(generateNumber<T>(
+                values_.push_back(Number<T>::generate(
                     [&](int lane) { return value(first + lane < width ? first + lane : width - 1, part); }));
     }
     // Of the texels from `first` on, a multiple of the number of lanes. Lanes behind the row repeat its last
@@ -33,7 +33,7 @@ class LanedColumns {
     }
 
   private:
-    static constexpr auto kLanes = static_cast<size_t>(NumberTraits<T>::lanes);
+    static constexpr auto kLanes = static_cast<size_t>(Number<T>::lanes);
     int parts_;
     std::vector<T> values_;
 };

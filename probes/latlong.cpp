@@ -2,6 +2,7 @@
 
 #include "numeric/check.h"
 #include "numeric/door.h"
+#include "numeric/vectors.h"
 #include "probes/mapping_passes.h"
 
 namespace etalon {
@@ -9,7 +10,6 @@ namespace etalon {
 namespace {
 
 // The double next to pi.
-constexpr double kPi = 0x1.921fb54442d18p+1;
 
 }  // namespace
 

@@ -89,7 +89,7 @@ CubeMap<float> cubeFromLatLong(const Image<float>& latLong, int size, const Cube
     ETALON_CHECK(parts >= 1 && parts <= kMaxSamplesPerAxis, "{} samples per axis", parts);
     using Kernel = LatLongKernel<T>;
     using vec3 = typename Kernel::vec3;
-    constexpr int kWidth = NumberTraits<T>::lanes;
+    constexpr int kWidth = Number<T>::lanes;
     const TextureView texture(latLong);
     const auto sampling = samplingOf<Kernel>(
         {options.filter, Wrap::repeat, Wrap::clamp, options.fractionBits}, latLong.width(), latLong.height());
@@ -115,8 +115,8 @@ CubeMap<float> cubeFromLatLong(const Image<float>& latLong, int size, const Cube
                                 sum[c] = i == 0 && j == 0 ? value[c] : sum[c] + value[c];
                         }
                     for (int c = 0; c < 3; c++)
-                        TexelFetch<T>::store(parts == 1 ? sum[c] : sum[c] * weight,
-                                             image.row(y, c).data() + first, active);
+                        Number<T>::store(parts == 1 ? sum[c] : sum[c] * weight,
+                                         image.row(y, c).data() + first, active);
                 }
             });
         }

@@ -41,7 +41,7 @@ struct LongitudeTable {
 // folded; moments[function * 3 + channel].
 template <class D, int functions>
 void findMoments(const TexelRow& row, const double* table, size_t padded, double* moments) {
-    constexpr int kWidth = NumberTraits<D>::lanes;
+    constexpr int kWidth = Number<D>::lanes;
     static_assert(kMomentParts % kWidth == 0);
     std::array<double, 3 * functions * kMomentParts> parts;
     for (int part = 0; part < kMomentParts; part += kWidth) {
@@ -49,11 +49,13 @@ void findMoments(const TexelRow& row, const double* table, size_t padded, double
         sums.fill(D(0.0));
         for (size_t x = static_cast<size_t>(part); x < padded; x += kMomentParts)
             for (size_t c = 0; c < 3; c++) {
-                const D radiance = loadRounded<D>(row.radiance[c].data() + x);
+                const D radiance = Number<D>::load(row.radiance[c].data() + x);
                 for (size_t f = 0; f < functions; f++)
-                    sums[3 * f + c] = sums[3 * f + c] + radiance * loadTerms<D>(table + f * padded + x);
+                    sums[3 * f + c] =
+                        sums[3 * f + c] + radiance * Number<D>::loadKept(table + f * padded + x);
             }
-        for (size_t i = 0; i < sums.size(); i++) storeTerms<D>(sums[i], &parts[i * kMomentParts] + part);
+        for (size_t i = 0; i < sums.size(); i++)
+            Number<D>::storeKept(sums[i], &parts[i * kMomentParts] + part);
     }
     for (size_t i = 0; i < 3 * functions; i++) {
         double* p = &parts[i * kMomentParts];

@@ -30,7 +30,7 @@ std::vector<Image<double>> irradianceOfLights(std::span<const ProbeLight> lights
                                               int threads = 0) {
     using Kernel = IrradianceKernel<T>;
     using vec3 = typename Kernel::vec3;
-    constexpr int kWidth = NumberTraits<T>::lanes;
+    constexpr int kWidth = Number<T>::lanes;
     struct Light {
         vec3 direction, energy;
     };
@@ -52,7 +52,7 @@ std::vector<Image<double>> irradianceOfLights(std::span<const ProbeLight> lights
                 directions[static_cast<size_t>(i)] =
                     grid.direction(layer, static_cast<int>(first) + std::min(i, active - 1), y);
             const auto component = [&](int c) {
-                return generateNumber<T>([&](int i) { return directions[static_cast<size_t>(i)][c]; });
+                return Number<T>::generate([&](int i) { return directions[static_cast<size_t>(i)][c]; });
             };
             const vec3 normal(component(0), component(1), component(2));
             vec3 sum(T(0.0), T(0.0), T(0.0));

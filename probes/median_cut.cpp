@@ -8,14 +8,13 @@
 #include "numeric/door.h"
 #include "numeric/elementary.h"
 #include "numeric/parallel.h"
+#include "numeric/vectors.h"
 #include "probes/energy_passes.h"
 #include "probes/latlong.h"
 #include "probes/summed_area.h"
 
 namespace etalon {
 namespace {
-
-constexpr double kPi = 0x1.921fb54442d18p+1;
 
 // A place in the image in texels, from the upper left corner.
 struct ImagePoint {

@@ -6,6 +6,7 @@
 #include "numeric/check.h"
 #include "numeric/elementary.h"
 #include "numeric/parallel.h"
+#include "numeric/vectors.h"
 #include "probes/texel_grid.h"
 
 namespace etalon {
@@ -50,8 +51,6 @@ class Rectangles {
     }
 
   private:
-    static constexpr double kPi = 0x1.921fb54442d18p+1;
-
     double corner(int64_t i, int64_t j) const {
         const double s = static_cast<double>(2 * i - columns_) / static_cast<double>(columns_),
                      t = static_cast<double>(2 * j - rows_) / static_cast<double>(rows_);

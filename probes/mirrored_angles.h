@@ -18,10 +18,10 @@ namespace etalon {
 
 template <class T>
 class MirroredAngles {
-    static constexpr int kWidth = NumberTraits<T>::lanes;
+    static constexpr int kWidth = Number<T>::lanes;
 
   public:
-    using Stored = TexelStorage<T>;
+    using Stored = typename Number<T>::Stored;
     // Formats that are emulated have rules of their own for small numbers.
     static constexpr bool kIsAvailable = std::is_same_v<T, Lanes<Stored, kWidth>>;
 

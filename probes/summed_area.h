@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "numeric/kernel_types.h"
-#include "numeric/number_lanes.h"
+#include "numeric/number.h"
 #include "numeric/parallel.h"
 #include "probes/probe_light.h"
 #include "raster/image.h"
@@ -75,7 +75,7 @@ struct SummedAreaKernel {
 // The values, each rounded once to T.
 template <class T>
 Image<double> roundedValues(const Image<double>& values, int threads) {
-    constexpr int kWidth = NumberTraits<T>::lanes;
+    constexpr int kWidth = Number<T>::lanes;
     Image<double> result = values;
     parallelFor(static_cast<size_t>(values.height()) * static_cast<size_t>(values.channels()), threads,
                 [&](size_t item) {
@@ -83,7 +83,7 @@ Image<double> roundedValues(const Image<double>& values, int threads) {
                     const auto row =
                         result.row(static_cast<int>(item % height), static_cast<int>(item / height));
                     forEachLaneGroup<kWidth>(row.size(), [&](size_t first, int active) {
-                        const T rounded = generateNumber<T>([&](int lane) {
+                        const T rounded = Number<T>::generate([&](int lane) {
                             return row[first + static_cast<size_t>(std::min(lane, active - 1))];
                         });
                         for (int lane = 0; lane < active; lane++)
@@ -98,7 +98,7 @@ Image<double> roundedValues(const Image<double>& values, int threads) {
 template <class T>
 Image<double> summedArea(const Image<double>& values, int threads) {
     ETALON_CHECK(values.channels() == 1, "{} channels", values.channels());
-    constexpr int kWidth = NumberTraits<T>::lanes;
+    constexpr int kWidth = Number<T>::lanes;
     const int width = values.width(), height = values.height();
     Image<double> table(width, height);
     // Lanes are rows.
@@ -106,7 +106,7 @@ Image<double> summedArea(const Image<double>& values, int threads) {
         const int first = static_cast<int>(group) * kWidth;
         T sum(0.0);
         for (int x = 0; x < width; x++) {
-            sum = sum + generateNumber<T>(
+            sum = sum + Number<T>::generate(
                             [&](int lane) { return values.at(x, std::min(first + lane, height - 1)); });
             for (int lane = 0; lane < kWidth && first + lane < height; lane++)
                 table.at(x, first + lane) = numberLane(sum, lane);
@@ -118,7 +118,7 @@ Image<double> summedArea(const Image<double>& values, int threads) {
         T sum(0.0);
         for (int y = 0; y < height; y++) {
             const auto row = table.row(y);
-            sum = sum + generateNumber<T>([&](int lane) {
+            sum = sum + Number<T>::generate([&](int lane) {
                       return row[static_cast<size_t>(std::min(first + lane, width - 1))];
                   });
             for (int lane = 0; lane < kWidth && first + lane < width; lane++)
@@ -136,7 +136,7 @@ Image<double> boxSums(const Image<double>& table, int width, int height, int thr
                      height <= table.height(),
                  "box of {}x{} in a table of {}x{} with {} channels", width, height, table.width(),
                  table.height(), table.channels());
-    constexpr int kWidth = NumberTraits<T>::lanes;
+    constexpr int kWidth = Number<T>::lanes;
     using Kernel = SummedAreaKernel<T>;
     Image<double> sums(table.width() - width + 1, table.height() - height + 1);
     parallelFor(static_cast<size_t>(sums.height()), threads, [&](size_t row) {
@@ -144,7 +144,7 @@ Image<double> boxSums(const Image<double>& table, int width, int height, int thr
         Kernel kernel;
         forEachLaneGroup<kWidth>(static_cast<size_t>(sums.width()), [&](size_t first, int active) {
             const auto entry = [&](int dx, int dy) {
-                return generateNumber<T>([&](int lane) {
+                return Number<T>::generate([&](int lane) {
                     const int x = static_cast<int>(first) + std::min(lane, active - 1) + dx;
                     return x < 0 || y + dy < 0 ? 0.0 : table.at(x, y + dy);
                 });

@@ -5,12 +5,11 @@
 
 #include "numeric/check.h"
 #include "numeric/elementary.h"
+#include "numeric/vectors.h"
 #include "probes/disc_solid_angle.h"
 
 namespace etalon {
 namespace {
-
-constexpr double kPi = 0x1.921fb54442d18p+1;
 
 // Of the corner between a cube face's middle and the point of its plane at border i and j.
 double cubeCornerSolidAngle_sr(int size, int i, int j) {

@@ -34,7 +34,7 @@ struct BlurKernel {
     size_t x = 0;
 
     T blurWeight(int k) const { return (*weights)[static_cast<size_t>(k)]; }
-    T blurTap(int k) const { return TexelFetch<T>::contiguous(rows[centre + k] + x); }
+    T blurTap(int k) const { return Number<T>::load(rows[centre + k] + x); }
 #include "raster/kernels/blur.glsl"
 };
 
@@ -56,8 +56,8 @@ inline constexpr double kBlurRelativeErrorPerTap = 0x1p-23;
 // constant is reproduced to that bound.
 template <class T>
 Image<float> blurGaussian(const Image<float>& image, int radius, double sigma, int threads = 0) {
-    using Stored = TexelStorage<T>;
-    constexpr int kWidth = NumberTraits<T>::lanes;
+    using Stored = typename Number<T>::Stored;
+    constexpr int kWidth = Number<T>::lanes;
     const std::vector<double> exactWeights = gaussianWeights(radius, sigma);
     if (radius == 0 || image.empty()) return image;
     std::vector<T> weights;
@@ -83,7 +83,7 @@ Image<float> blurGaussian(const Image<float>& image, int radius, double sigma, i
         BlurKernel<T, Stored> kernel{&weights, rows.data(), radius};
         forEachLaneGroup<kWidth>(static_cast<size_t>(width), [&](size_t first, int active) {
             kernel.x = first;
-            TexelFetch<T>::store(kernel.blurPixelAlong(radius), between.data() + r * stride + first, active);
+            Number<T>::store(kernel.blurPixelAlong(radius), between.data() + r * stride + first, active);
         });
     });
 
@@ -100,8 +100,8 @@ Image<float> blurGaussian(const Image<float>& image, int radius, double sigma, i
         BlurKernel<T, Stored> kernel{&weights, rows.data(), radius};
         forEachLaneGroup<kWidth>(static_cast<size_t>(width), [&](size_t first, int active) {
             kernel.x = first;
-            TexelFetch<T>::store(kernel.blurPixelAlong(radius),
-                                 result.values().data() + r * static_cast<size_t>(width) + first, active);
+            Number<T>::store(kernel.blurPixelAlong(radius),
+                             result.values().data() + r * static_cast<size_t>(width) + first, active);
         });
     });
     return result;

@@ -45,7 +45,7 @@ struct SamplerSettings {
 // True if T holds the whole number exactly.
 template <class T>
 bool holdsInteger(int value) {
-    if constexpr (NumberTraits<T>::lanes == 1)
+    if constexpr (Number<T>::lanes == 1)
         return toInteger(T(static_cast<double>(value))) == value;
     else
         return toInteger(T(static_cast<double>(value)))[0] == value;

@@ -9,7 +9,7 @@
 
 #include "numeric/kernel_types.h"
 #include "numeric/narrow.h"
-#include "numeric/number_lanes.h"
+#include "numeric/number.h"
 #include "raster/image.h"
 
 namespace etalon {
@@ -95,36 +95,10 @@ class TextureView {
     bool isDouble_ = false;
 };
 
-// The scalar type that texels and results of arithmetic in T are stored as: float for float, fp16 and bf16 and
-// their lanes, else double (exact for every format; truth is rounded to double).
-template <class T>
-struct TexelStorageOf {
-    using Type = double;
-};
-template <>
-struct TexelStorageOf<float> {
-    using Type = float;
-};
-template <int N>
-struct TexelStorageOf<Lanes<float, N>> {
-    using Type = float;
-};
-template <class D>
-struct TexelStorageOf<Narrow<D>> {
-    using Type = float;
-};
-template <class T>
-using TexelStorage = typename TexelStorageOf<T>::Type;
-
-// Whether operations of T are instructions: float, double and their lanes.
-template <class T>
-inline constexpr bool kIsNativeNumber =
-    std::is_same_v<T, TexelStorage<T>> || std::is_same_v<T, Lanes<TexelStorage<T>, NumberTraits<T>::lanes>>;
-
-// Moves stored texels into the number type T, each rounded once to T, and back.
+// Texels as numbers of the type T, each rounded once to T.
 template <class T>
 struct TexelFetch {
-    static constexpr int kCount = NumberTraits<T>::lanes;
+    static constexpr int kCount = Number<T>::lanes;
     using Integer = typename NumberTraits<T>::Integer;
 
     // The texels at per-lane coordinates inside the texture.
@@ -137,9 +111,9 @@ struct TexelFetch {
             if (t.floats(0))
                 return T(Lanes<float, kCount>::generate(
                     [&](int i) { return t.storedAs<float>(layer[i], channel, x[i], y[i]); }));
-            return generateNumber<T>([&](int i) { return t.stored(layer[i], channel, x[i], y[i]); });
+            return Number<T>::generate([&](int i) { return t.stored(layer[i], channel, x[i], y[i]); });
         } else
-            return generateNumber<T>([&](int i) { return t.stored(layer[i], channel, x[i], y[i]); });
+            return Number<T>::generate([&](int i) { return t.stored(layer[i], channel, x[i], y[i]); });
     }
     // The first three channels of two texels, if the second one is stored behind the first one in every lane
     // and T is lanes of the stored type; else false, and nothing is written.
@@ -163,48 +137,6 @@ struct TexelFetch {
         }
         return false;
     }
-    // One texel per lane, contiguous from `from`.
-    template <class Stored>
-    static T contiguous(const Stored* from) {
-        if constexpr (std::is_same_v<T, Lanes<Stored, kCount>>)
-            return T::load(from);
-        else if constexpr (kCount > 1 && std::is_same_v<T, Lanes<float, kCount>> &&
-                           std::is_same_v<Stored, double>)
-            return joinLanes(convertLanes<float>(Half::load(from)),
-                             convertLanes<float>(Half::load(from + kCount / 2)));
-        else if constexpr (kCount > 1 && std::is_same_v<T, Narrow<Lanes<float, kCount>>> &&
-                           std::is_same_v<Stored, double>) {
-            using Round = EmulatedOperations<Half>;
-            return T::ofRepresentable(
-                joinLanes(convertLanes<float>(Round::rounded(Half::load(from))),
-                          convertLanes<float>(Round::rounded(Half::load(from + kCount / 2)))));
-        } else if constexpr (std::is_constructible_v<T, Lanes<Stored, kCount>>)
-            return T(Lanes<Stored, kCount>::load(from));
-        else
-            return generateNumber<T>([&](int i) { return static_cast<double>(from[i]); });
-    }
-    // The first `active` lanes, each rounded once to Stored.
-    template <class Stored>
-    static void store(const T& value, Stored* to, int active) {
-        if constexpr (std::is_same_v<T, Lanes<Stored, kCount>>)
-            storeActive(value, to, active);
-        else if constexpr (requires { storeActive(value.v, to, active); })
-            storeActive(value.v, to, active);
-        else if constexpr (kCount > 1 && std::is_same_v<T, Lanes<float, kCount>> &&
-                           std::is_same_v<Stored, double>) {
-            constexpr int kHalf = kCount / 2;
-            storeActive(convertLanes<double>(lowerLanes(value)), to, std::min(active, kHalf));
-            if (active > kHalf)
-                storeActive(convertLanes<double>(upperLanes(value)), to + kHalf, active - kHalf);
-        } else if constexpr (kCount > 1 && std::is_same_v<T, Narrow<Lanes<float, kCount>>>)
-            TexelFetch<Lanes<float, kCount>>::store(value.v, to, active);
-        else
-            for (int i = 0; i < active; i++) to[i] = static_cast<Stored>(numberLane(value, i));
-    }
-
-  private:
-    // Doubles are moved a register at a time.
-    using Half = Lanes<double, std::max(1, kCount / 2)>;
 };
 
 }  // namespace etalon

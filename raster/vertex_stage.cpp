@@ -1,7 +1,7 @@
 #include "raster/vertex_stage.h"
 
 #include "numeric/door.h"
-#include "numeric/number_lanes.h"
+#include "numeric/number.h"
 
 namespace etalon {
 namespace {
@@ -10,15 +10,15 @@ void projectVertices(const ViewportTransform& transform, std::span<const ClipVer
                      std::span<ProjectedVertex> projected, std::span<uint8_t> outcodes) {
     using T = Native<double>;
     using P = Projection<T>;
-    forEachLaneGroup<NumberTraits<T>::lanes>(vertices.size(), [&](size_t first, int active) {
+    forEachLaneGroup<Number<T>::lanes>(vertices.size(), [&](size_t first, int active) {
         const auto item = [&](int lane) -> const ClipVertex& {
             return vertices[first + static_cast<size_t>(lane < active ? lane : active - 1)];
         };
         // Adding 0 turns -0 into +0 and leaves every other value.
-        typename P::vec4 p(generateNumber<T>([&](int i) { return item(i).x; }) + T(0.0),
-                           generateNumber<T>([&](int i) { return item(i).y; }) + T(0.0),
-                           generateNumber<T>([&](int i) { return item(i).z; }) + T(0.0),
-                           generateNumber<T>([&](int i) { return item(i).w; }) + T(0.0));
+        typename P::vec4 p(Number<T>::generate([&](int i) { return item(i).x; }) + T(0.0),
+                           Number<T>::generate([&](int i) { return item(i).y; }) + T(0.0),
+                           Number<T>::generate([&](int i) { return item(i).z; }) + T(0.0),
+                           Number<T>::generate([&](int i) { return item(i).w; }) + T(0.0));
         const auto [code, canBeProjected] = P::outcode(p, transform);
         // The others are put in the middle.
         p = {P::select(canBeProjected, p.x, T(0.0)), P::select(canBeProjected, p.y, T(0.0)),

@@ -7,23 +7,19 @@
 #include "numeric/check.h"
 #include "numeric/elementary.h"
 #include "numeric/parallel.h"
+#include "numeric/vectors.h"
 
 namespace etalon {
 namespace {
 
 // The doubles next to pi and to the golden angle pi (3 - sqrt(5)).
-constexpr double kPi = 0x1.921fb54442d18p+1;
 constexpr double kGoldenAngle_rad = 0x1.3331febfa4bfcp+1;
 
 constexpr size_t kPointsPerTask = 16384;
 constexpr size_t kHemicubesPerTask = 8;
 
-double dot(const glm::dvec3& a, const glm::dvec3& b) { return a.x * b.x + (a.y * b.y + a.z * b.z); }
-glm::dvec3 cross(const glm::dvec3& a, const glm::dvec3& b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
 glm::dvec3 unitOr(const glm::dvec3& v, const glm::dvec3& otherwise) {
-    const double squared = dot(v, v);
+    const double squared = dotOf(v, v);
     return squared > 0 ? v / std::sqrt(squared) : otherwise;
 }
 
@@ -42,8 +38,8 @@ struct OcclusionSum {
 std::array<glm::dvec3, 2> acrossOf(const glm::dvec3& n) {
     const bool isX = std::fabs(n.x) < std::fabs(n.y);
     const glm::dvec3 axis = isX ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
-    const glm::dvec3 u = unitOr(cross(axis, n), axis);
-    return {u, cross(n, u)};
+    const glm::dvec3 u = unitOr(crossOf(axis, n), axis);
+    return {u, crossOf(n, u)};
 }
 
 // Draws a scene again and again into small views.
@@ -126,7 +122,7 @@ class Hemicube {
                     weights[static_cast<size_t>(y) * static_cast<size_t>(size) + static_cast<size_t>(x)];
                 const glm::dvec3 ray = view.forward + (x + 0.5 - view.centreX_px) * view.perX +
                                        (y + 0.5 - view.centreY_px) * view.perY;
-                const double length = std::sqrt(dot(ray, ray));
+                const double length = std::sqrt(dotOf(ray, ray));
                 bool isCovered = target.id.at(x, y) != kNoTriangle;
                 if (isCovered && isLimited)
                     isCovered =
@@ -149,7 +145,8 @@ class Hemicube {
 View ballView(const glm::dvec3& towards, const glm::dvec3& centre, double radius_m, int size) {
     const auto [u, v] = acrossOf(towards);
     const auto row = [&](const glm::dvec3& axis, double scale, double offset) {
-        return glm::dvec4(scale * axis.x, scale * axis.y, scale * axis.z, offset - scale * dot(axis, centre));
+        return glm::dvec4(scale * axis.x, scale * axis.y, scale * axis.z,
+                          offset - scale * dotOf(axis, centre));
     };
     View view;
     view.width = view.height = size;
@@ -179,7 +176,7 @@ Ball ballAround(std::span<const PlacedMesh> placed) {
         }
     if (!(lowest.x <= highest.x)) return {};
     const glm::dvec3 half = 0.5 * highest - 0.5 * lowest;
-    return {lowest + half, std::sqrt(dot(half, half))};
+    return {lowest + half, std::sqrt(dotOf(half, half))};
 }
 
 }  // namespace
@@ -283,7 +280,7 @@ std::vector<Occlusion> directionalOcclusion(std::span<const PlacedMesh> placed,
             (points.size() + kPointsPerTask - 1) / kPointsPerTask, options.raster.threads, [&](size_t task) {
                 const size_t end = std::min(points.size(), (task + 1) * kPointsPerTask);
                 for (size_t i = task * kPointsPerTask; i < end; i++) {
-                    const double weight = dot(points[i].normal, towards);
+                    const double weight = dotOf(points[i].normal, towards);
                     if (!(weight > 0)) continue;
                     const glm::dvec3 p = points[i].position_m + offset_m * points[i].normal;
                     const double x = (along(view.worldToClip[0], p) + 1) * (size / 2.0);

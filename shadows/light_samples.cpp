@@ -5,34 +5,25 @@
 #include "numeric/check.h"
 #include "numeric/elementary.h"
 #include "numeric/random.h"
+#include "numeric/vectors.h"
 
 namespace etalon {
 namespace {
-
-constexpr double kPi = 0x1.921fb54442d18p+1;
 
 // A direction and two more, right-handed: side x axis = middle.
 struct Axes {
     glm::dvec3 middle, side, axis;
 };
 
-glm::dvec3 cross(const glm::dvec3& a, const glm::dvec3& b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-glm::dvec3 unit(const glm::dvec3& a) {
-    const double length = std::sqrt(a.x * a.x + (a.y * a.y + a.z * a.z));
-    return {a.x / length, a.y / length, a.z / length};
-}
-
 Axes axesAround(const glm::dvec3& direction) {
     const double square = direction.x * direction.x + (direction.y * direction.y + direction.z * direction.z);
     ETALON_CHECK(square > 0 && std::isfinite(square), "direction ({}, {}, {})", direction.x, direction.y,
                  direction.z);
     Axes axes;
-    axes.middle = unit(direction);
+    axes.middle = unitOf(direction);
     const bool upright = axes.middle.y * axes.middle.y > 0.8;
-    axes.side = unit(cross(upright ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0), axes.middle));
-    axes.axis = cross(axes.middle, axes.side);
+    axes.side = unitOf(crossOf(upright ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0), axes.middle));
+    axes.axis = crossOf(axes.middle, axes.side);
     return axes;
 }
 

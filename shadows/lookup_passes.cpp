@@ -6,7 +6,7 @@
 
 #include "lighting/render_view.h"
 #include "numeric/door.h"
-#include "numeric/number_lanes.h"
+#include "numeric/number.h"
 #include "numeric/parallel.h"
 #include "raster/depth.h"
 #include "raster/texture.h"
@@ -37,8 +37,8 @@ class ShadowLookupOf final : public ShadowLookup {
     using vec3 = typename K::vec3;
     using integer = typename K::integer;
     using boolean = typename K::boolean;
-    using Stored = TexelStorage<T>;
-    static constexpr int N = NumberTraits<T>::lanes;
+    using Stored = typename Number<T>::Stored;
+    static constexpr int N = Number<T>::lanes;
     static constexpr size_t kChunk = 256;  // points at a time
     static constexpr int kNoLayer = -1;
     static constexpr int kBlock = 8;
@@ -72,15 +72,10 @@ class ShadowLookupOf final : public ShadowLookup {
         else
             return laneBits(c);
     }
-    // Numbers of points first, first + 1 ...; behind the last one it repeats.
-    template <class S>
-    static T load(const S* from, int active) {
-        if (active == N) return TexelFetch<T>::contiguous(from);
-        return generateNumber<T>([&](int i) { return static_cast<double>(from[std::min(i, active - 1)]); });
-    }
+    // Of points first, first + 1 ...
     static vec3 load(const std::array<std::vector<double>, 3>& from, size_t first, int active) {
-        return vec3(load(&from[0][first], active), load(&from[1][first], active),
-                    load(&from[2][first], active));
+        return vec3(Number<T>::load(&from[0][first], active), Number<T>::load(&from[1][first], active),
+                    Number<T>::load(&from[2][first], active));
     }
 
     void fillPlane(size_t layer, int threads);
@@ -95,7 +90,7 @@ class ShadowLookupOf final : public ShadowLookup {
                static_cast<ptrdiff_t>(y + pad_) * stride_ + (x + pad_);
     }
     void place(const LitPoints& points, size_t first, size_t count, Places& places) const {
-        if constexpr (kIsNativeNumber<T>)
+        if constexpr (Number<T>::isNative)
             placeFlattened(points, first, count, places);
         else
             placeEach(points, first, count, places);
@@ -192,9 +187,9 @@ ShadowLookupOf<T>::ShadowLookupOf(const ShadowMap& map, int fractionBits, int th
     }
 
     for (size_t part = 0; part < columns_.size(); part++)
-        columns_[part] = generateNumber<T>([&](int i) { return static_cast<double>(part * N) + i; });
-    columnsOfTwoRows_ = generateNumber<T>([](int i) { return i % 8; });
-    rowsOfTwoRows_ = generateNumber<T>([](int i) { return i / 8; });
+        columns_[part] = Number<T>::generate([&](int i) { return static_cast<double>(part * N) + i; });
+    columnsOfTwoRows_ = Number<T>::generate([](int i) { return i % 8; });
+    rowsOfTwoRows_ = Number<T>::generate([](int i) { return i / 8; });
     for (int j = 0; j < std::min(windowTaps_, 8); j++)
         window_ |= ((uint64_t{1} << windowTaps_) - 1) << (8 * j);
     pad_ = 2 * reach + 2;
@@ -252,9 +247,11 @@ typename ShadowLookupOf<T>::Decided ShadowLookupOf<T>::decide(const Places& plac
         const size_t block = blockOf(places.x[at], places.y[at]);
         nearest[lane] = plane.nearest[block], farthest[lane] = plane.farthest[block];
     }
-    const T depth = load(&places.depth[offset], active), perU = load(&places.perU[offset], active),
-            perV = load(&places.perV[offset], active), left = load(&places.centreU[offset], active),
-            upper = load(&places.centreV[offset], active), taps(static_cast<double>(windowTaps_)),
+    const T depth = Number<T>::load(&places.depth[offset], active),
+            perU = Number<T>::load(&places.perU[offset], active),
+            perV = Number<T>::load(&places.perV[offset], active),
+            left = Number<T>::load(&places.centreU[offset], active),
+            upper = Number<T>::load(&places.centreV[offset], active), taps(static_cast<double>(windowTaps_)),
             right = left + taps, lower = upper + taps;
     const T a = kernels.referenceDepth(depth, perU, perV, left, upper, farthest_),
             b = kernels.referenceDepth(depth, perU, perV, right, upper, farthest_),
@@ -262,8 +259,8 @@ typename ShadowLookupOf<T>::Decided ShadowLookupOf<T>::decide(const Places& plac
             d = kernels.referenceDepth(depth, perU, perV, right, lower, farthest_);
     const T least = K::minOf(K::minOf(a, b), K::minOf(c, d)), most = K::maxOf(K::maxOf(a, b), K::maxOf(c, d));
     const uint32_t lanes = static_cast<uint32_t>((uint64_t{1} << active) - 1);
-    decided.lit = bitsOf(most <= load(nearest.data(), N)) & lanes;
-    decided.shadowed = bitsOf(load(farthest.data(), N) < least) & lanes;
+    decided.lit = bitsOf(most <= Number<T>::load(nearest.data())) & lanes;
+    decided.shadowed = bitsOf(Number<T>::load(farthest.data()) < least) & lanes;
     return decided;
 }
 
@@ -276,7 +273,7 @@ void ShadowLookupOf<T>::fillPlane(size_t layer, int threads) {
     const DepthFormat format = map_.format();
     std::vector<Stored>& to = planes_[layer].texels;
     Stored farthest;
-    TexelFetch<T>::store(levels_ > 0 ? T(levels_) : farthest_, &farthest, 1);
+    Number<T>::store(levels_ > 0 ? T(levels_) : farthest_, &farthest, 1);
     // One more row than is looked at, for those that read two.
     to.resize(static_cast<size_t>(stride_) * static_cast<size_t>(width + 2 * pad_ + 1));
     parallelFor(static_cast<size_t>(width + 2 * pad_), threads, [&](size_t row) {
@@ -291,9 +288,9 @@ void ShadowLookupOf<T>::fillPlane(size_t layer, int threads) {
         line += pad_;
         const auto convert = [&](auto&& valueAt) {
             forEachLaneGroup<N>(static_cast<size_t>(width), [&](size_t first, int active) {
-                const T value = generateNumber<T>(
+                const T value = Number<T>::generate(
                     [&](int i) { return valueAt(first + static_cast<size_t>(std::min(i, active - 1))); });
-                TexelFetch<T>::store(value, line + first, active);
+                Number<T>::store(value, line + first, active);
             });
         };
         if (isDistance) {
@@ -382,7 +379,7 @@ void ShadowLookupOf<T>::placeEach(const LitPoints& points, size_t first, size_t 
                                                                      {&y.fraction, places.fractionY.data()},
                                                                      {&centreU, places.centreU.data()},
                                                                      {&centreV, places.centreV.data()}}};
-        for (const auto& [value, to] : values) TexelFetch<T>::store(*value, to + offset, active);
+        for (const auto& [value, to] : values) Number<T>::store(*value, to + offset, active);
         const uint32_t inFront = bitsOf(p.isInFront);
         for (int i = 0; i < active; i++) {
             const size_t j = offset + static_cast<size_t>(i);
@@ -420,7 +417,7 @@ template <class T>
     for (int part = 0; part * N <= windowTaps_; part++) {
         const T reference =
             kernels.referenceDepth(depth, perU, perV, du[static_cast<size_t>(part)], dv, farthest_);
-        const T texels = TexelFetch<T>::contiguous(row + part * N);
+        const T texels = Number<T>::load(row + part * N);
         bits |= (levels_ > 0 ? compareQuantised(texels, reference) : bitsOf(texels < reference))
                 << (part * N);
     }
@@ -505,10 +502,11 @@ void ShadowLookupOf<T>::findWindow(const Places& places, size_t count, std::span
             lit[corner][i] = whole - static_cast<Stored>(shadowed[corner]);
     }
     forEachLaneGroup<N>(count, [&](size_t offset, int active) {
-        const T part = kernels.litPart(load(&lit[0][offset], active), load(&lit[1][offset], active),
-                                       load(&lit[2][offset], active), load(&lit[3][offset], active),
-                                       load(&places.fractionX[offset], active),
-                                       load(&places.fractionY[offset], active), taps);
+        const T part = kernels.litPart(
+            Number<T>::load(&lit[0][offset], active), Number<T>::load(&lit[1][offset], active),
+            Number<T>::load(&lit[2][offset], active), Number<T>::load(&lit[3][offset], active),
+            Number<T>::load(&places.fractionX[offset], active),
+            Number<T>::load(&places.fractionY[offset], active), taps);
         for (int i = 0; i < active; i++) visibility[offset + static_cast<size_t>(i)] = numberLane(part, i);
     });
 }
@@ -516,7 +514,7 @@ void ShadowLookupOf<T>::findWindow(const Places& places, size_t count, std::span
 template <class T>
 T ShadowLookupOf<T>::fetch(const std::array<int, kChunk>& layers, size_t first, const integer& x,
                            const integer& y) const {
-    return generateNumber<T>([&](int i) {
+    return Number<T>::generate([&](int i) {
         const int layer = layers[std::min(first + static_cast<size_t>(i), kChunk - 1)];
         if (layer == kNoLayer) return 0.0;
         const int last = map_.projection.width + pad_ - 1;
@@ -533,11 +531,13 @@ void ShadowLookupOf<T>::findDisc(const LitPoints& points, size_t first, const Pl
     const ShadowMapSettings& settings = map_.settings;
     const T most(settings.radius_texels);
     forEachLaneGroup<N>(count, [&](size_t offset, int active) {
-        const T u = load(&places.u[offset], active), v = load(&places.v[offset], active),
-                depth = load(&places.depth[offset], active), perU = load(&places.perU[offset], active),
-                perV = load(&places.perV[offset], active);
+        const T u = Number<T>::load(&places.u[offset], active),
+                v = Number<T>::load(&places.v[offset], active),
+                depth = Number<T>::load(&places.depth[offset], active),
+                perU = Number<T>::load(&places.perU[offset], active),
+                perV = Number<T>::load(&places.perV[offset], active);
         const auto turn = [&](bool isSine) {
-            return generateNumber<T>([&](int i) {
+            return Number<T>::generate([&](int i) {
                 const size_t j = first + offset + static_cast<size_t>(std::min(i, active - 1));
                 const glm::dvec2& t = turns_.of(points.x_px[j], points.y_px[j]);
                 return isSine ? t.y : t.x;
@@ -560,7 +560,7 @@ void ShadowLookupOf<T>::findDisc(const LitPoints& points, size_t first, const Pl
                 if (levels_ > 0) {
                     const uint32_t bits = compareQuantised(texels, reference);
                     const T inTheWay =
-                        generateNumber<T>([&](int i) { return (bits >> i & 1) != 0 ? 1.0 : 0.0; });
+                        Number<T>::generate([&](int i) { return (bits >> i & 1) != 0 ? 1.0 : 0.0; });
                     use(texels / T(levels_), inTheWay > T(0.0));
                 } else {
                     use(texels, texels < reference);

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "numeric/door.h"
-#include "numeric/number_lanes.h"
+#include "numeric/number.h"
 
 namespace etalon {
 namespace {
@@ -36,9 +36,9 @@ void planarVisibilityOver(const PlanarShadow& shadow, const PlanarSampling& samp
     map.width = shadow.grid.width, map.height = shadow.grid.height;
     map.filterMode = static_cast<int>(sampling.filter);
     map.fractionBits = sampling.fractionBits;
-    forEachLaneGroup<NumberTraits<T>::lanes>(listed.size(), [&](size_t first, int active) {
+    forEachLaneGroup<Number<T>::lanes>(listed.size(), [&](size_t first, int active) {
         const auto coordinate = [&](size_t c) {
-            return generateNumber<T>([&](int lane) {
+            return Number<T>::generate([&](int lane) {
                 return points.position_m[c][listed[first + static_cast<size_t>(std::min(lane, active - 1))]];
             });
         };

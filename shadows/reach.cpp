@@ -1,4 +1,5 @@
 #include "shadows/reach.h"
+#include "numeric/vectors.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +9,6 @@ namespace {
 
 constexpr double kRoundings = 64;
 
-double dot(const glm::dvec3& a, const glm::dvec3& b) { return a.x * b.x + (a.y * b.y + a.z * b.z); }
-double length(const glm::dvec3& a) { return std::sqrt(dot(a, a)); }
 double largestOf(const glm::dvec3& a) { return std::max({std::fabs(a.x), std::fabs(a.y), std::fabs(a.z)}); }
 
 // Whether the normals of a triangle's corners, at any of its points, may turn to the light.
@@ -17,15 +16,15 @@ bool isReached(const PlacedMesh& placed, const uint32_t* corners, const SurfaceL
                double rounding) {
     for (int i = 0; i < 3; i++) {
         const glm::dvec3& n = placed.normals[corners[i]];
-        const double part = rounding * length(n);
+        const double part = rounding * lengthOf(n);
         if (light.kind == LightKind::directional) {
-            if (!(dot(n, light.toLight) < -part * length(light.toLight))) return true;
+            if (!(dotOf(n, light.toLight) < -part * lengthOf(light.toLight))) return true;
             continue;
         }
         for (int k = 0; k < 3; k++) {
             const glm::dvec3& p = placed.positions[corners[k]];
             const double extent = largestOf(p) + largestOf(light.position_m);
-            if (!(dot(n, light.position_m - p) < -part * extent)) return true;
+            if (!(dotOf(n, light.position_m - p) < -part * extent)) return true;
         }
     }
     return false;
@@ -44,7 +43,7 @@ struct Bounds {
                 largest = std::max(largest, largestOf(p));
             }
     }
-    double radius() const { return low.x <= high.x ? length(high - low) / 2 : 0; }
+    double radius() const { return low.x <= high.x ? lengthOf(high - low) / 2 : 0; }
 };
 
 }  // namespace
@@ -88,17 +87,17 @@ bool isAllOpen(std::span<const PlacedMesh> placed, std::span<const SurfaceInstan
         if (!marked[i] || placed[i].mesh->indices.empty()) continue;
         const PlacedMesh& mesh = placed[i];
         const uint32_t first = mesh.mesh->indices[0];
-        const glm::dvec3 normal = mesh.normals[first] / length(mesh.normals[first]);
+        const glm::dvec3 normal = mesh.normals[first] / lengthOf(mesh.normals[first]);
         for (const uint32_t v : mesh.mesh->indices) {
-            const double size = length(mesh.normals[v]);
+            const double size = lengthOf(mesh.normals[v]);
             const glm::dvec3 d = mesh.normals[v] / size - normal;
             if (!(largestOf(d) <= tilt)) return false;
-            if (!(std::fabs(dot(normal, mesh.positions[v] - mesh.positions[first])) <= tolerance_m))
+            if (!(std::fabs(dotOf(normal, mesh.positions[v] - mesh.positions[first])) <= tolerance_m))
                 return false;
         }
         for (const PlacedMesh& other : placed)
             for (const glm::dvec3& p : other.positions) {
-                const double height_m = dot(normal, p - mesh.positions[first]);
+                const double height_m = dotOf(normal, p - mesh.positions[first]);
                 if (height_m > tolerance_m || (instances[i].twoSided && height_m < -tolerance_m))
                     return false;
             }

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "numeric/vectors.h"
 #include "shadows/shadow_map.h"
 
 namespace etalon {
@@ -15,11 +16,6 @@ constexpr double kDepthMargin = 0x1p-10;
 // Texel edges of snapped layers have so many significant bits, so that they rarely change.
 constexpr int kTexelBits = 5;
 
-double dot(const glm::dvec3& a, const glm::dvec3& b) { return a.x * b.x + (a.y * b.y + a.z * b.z); }
-glm::dvec3 cross(const glm::dvec3& a, const glm::dvec3& b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-glm::dvec3 scaled(const glm::dvec3& a, double s) { return {a.x * s, a.y * s, a.z * s}; }
 bool isFinite(const glm::dvec3& a) { return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z); }
 
 // Right, down and forward of a light that shines along `forward` (unit); right is perpendicular to +Y, or to
@@ -27,10 +23,10 @@ bool isFinite(const glm::dvec3& a) { return std::isfinite(a.x) && std::isfinite(
 void setAxes(ShadowProjection& projection, const glm::dvec3& forward) {
     constexpr double kAlongY = 0.9;
     const bool isAlongY = std::fabs(forward.y) > kAlongY;
-    const glm::dvec3 right = cross(forward, isAlongY ? glm::dvec3(0, 0, 1) : glm::dvec3(0, 1, 0));
+    const glm::dvec3 right = crossOf(forward, isAlongY ? glm::dvec3(0, 0, 1) : glm::dvec3(0, 1, 0));
     projection.forward = forward;
-    projection.right = scaled(right, 1 / std::sqrt(dot(right, right)));
-    projection.down = cross(projection.forward, projection.right);
+    projection.right = scaledBy(right, 1 / std::sqrt(dotOf(right, right)));
+    projection.down = crossOf(projection.forward, projection.right);
 }
 
 // What a light sees of an object: its outline's box (metres, or tangents) and its depths. Empty: nothing.
@@ -65,14 +61,14 @@ Extent extentOf(const PlacedMesh& mesh, const ShadowProjection& projection) {
         if (!isFinite(p)) continue;
         const glm::dvec3 d = p - projection.origin;
         if (projection.isCube) {
-            const double distance = std::sqrt(dot(d, d));
+            const double distance = std::sqrt(dotOf(d, d));
             extent.nearest = 0;
             extent.farthest = std::max(extent.farthest, distance);
             include(0, 0);
             continue;
         }
-        const double along = dot(projection.forward, d);
-        double x = dot(projection.right, d), y = dot(projection.down, d);
+        const double along = dotOf(projection.forward, d);
+        double x = dotOf(projection.right, d), y = dotOf(projection.down, d);
         extent.nearest = std::min(extent.nearest, along);
         extent.farthest = std::max(extent.farthest, along);
         if (projection.isPerspective) {
@@ -115,12 +111,12 @@ Box boxOf(const PlacedMesh& mesh) {
     return box;
 }
 
-// The plane of a flat mesh: dot(normal, p) = offset with a unit normal; none where the mesh is not flat.
+// The plane of a flat mesh: dotOf(normal, p) = offset with a unit normal; none where the mesh is not flat.
 struct Plane {
     bool exists = false;
     glm::dvec3 normal{0};
     double offset = 0, tolerance_m = 0;
-    double above(const glm::dvec3& p) const { return dot(normal, p) - offset; }
+    double above(const glm::dvec3& p) const { return dotOf(normal, p) - offset; }
 };
 Plane planeOf(const PlacedMesh& mesh) {
     Plane plane;
@@ -135,16 +131,16 @@ Plane planeOf(const PlacedMesh& mesh) {
         return mesh.positions[best];
     };
     const glm::dvec3 a = mesh.positions.front();
-    const glm::dvec3 ab = farthestOf([&](const glm::dvec3& p) { return dot(p - a, p - a); }) - a;
-    const auto across = [&](const glm::dvec3& p) { return cross(ab, p - a); };
-    glm::dvec3 normal = across(farthestOf([&](const glm::dvec3& p) { return dot(across(p), across(p)); }));
-    const double length = std::sqrt(dot(normal, normal));
+    const glm::dvec3 ab = farthestOf([&](const glm::dvec3& p) { return dotOf(p - a, p - a); }) - a;
+    const auto across = [&](const glm::dvec3& p) { return crossOf(ab, p - a); };
+    glm::dvec3 normal = across(farthestOf([&](const glm::dvec3& p) { return dotOf(across(p), across(p)); }));
+    const double length = std::sqrt(dotOf(normal, normal));
     if (!(length > 0) || !std::isfinite(length)) return plane;
-    normal = scaled(normal, 1 / length);
+    normal = scaledBy(normal, 1 / length);
     double largest = 0;
     for (const glm::dvec3& p : mesh.positions)
         largest = std::max({largest, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
-    plane = {true, normal, dot(normal, a), largest * kFlatness};
+    plane = {true, normal, dotOf(normal, a), largest * kFlatness};
     for (const glm::dvec3& p : mesh.positions)
         if (!(std::fabs(plane.above(p)) <= plane.tolerance_m)) return {};
     return plane;
@@ -152,7 +148,7 @@ Plane planeOf(const PlacedMesh& mesh) {
 
 // Whether all of a receiver lies on the light's side of a flat caster.
 bool isBefore(const Plane& plane, const PlacedMesh& receiver, const SurfaceLight& light) {
-    const double side = light.kind == LightKind::directional ? dot(plane.normal, light.toLight)
+    const double side = light.kind == LightKind::directional ? dotOf(plane.normal, light.toLight)
                                                              : plane.above(light.position_m);
     const double error = light.kind == LightKind::directional ? kFlatness : plane.tolerance_m;
     if (std::fabs(side) <= error) return true;  // seen from its edge
@@ -194,7 +190,7 @@ void placeTexels(ShadowProjection& projection, const double low[2], const double
         projection.centreU -= centre[0] / texel;
         projection.centreV -= centre[1] / texel;
     } else {
-        projection.origin = scaled(projection.right, centre[0]) + scaled(projection.down, centre[1]);
+        projection.origin = scaledBy(projection.right, centre[0]) + scaledBy(projection.down, centre[1]);
     }
 }
 
@@ -209,7 +205,7 @@ void placeDepths(ShadowProjection& projection, double nearest, double farthest) 
     }
     // The origin moves onto the near plane.
     const double near_m = nearest - std::max(margin, 1e-9);
-    projection.origin = projection.origin + scaled(projection.forward, near_m);
+    projection.origin = projection.origin + scaledBy(projection.forward, near_m);
     projection.far_m -= near_m;
     projection.near_m = 0;
     projection.depthScale = 1 / projection.far_m;
@@ -227,8 +223,8 @@ bool isInFace(const Box& box, const ShadowProjection& projection, int face) {
             glm::dvec3(corner & 1 ? box.high.x : box.low.x, corner & 2 ? box.high.y : box.low.y,
                        corner & 4 ? box.high.z : box.low.z) -
             projection.origin;
-        const double along = dot(view.forward, d), x = dot(view.perX, d) * projection.scale,
-                     y = dot(view.perY, d) * projection.scale;
+        const double along = dotOf(view.forward, d), x = dotOf(view.perX, d) * projection.scale,
+                     y = dotOf(view.perY, d) * projection.scale;
         const double across[4] = {x, -x, y, -y};
         for (int k = 0; k < 4; k++) outside[k] = outside[k] && across[k] > along * slope;
     }
@@ -236,7 +232,7 @@ bool isInFace(const Box& box, const ShadowProjection& projection, int face) {
 }
 
 bool isUsable(const SurfaceLight& light) {
-    const auto isDirection = [](const glm::dvec3& d) { return isFinite(d) && dot(d, d) > 0; };
+    const auto isDirection = [](const glm::dvec3& d) { return isFinite(d) && dotOf(d, d) > 0; };
     switch (light.kind) {
         case LightKind::directional:
             return isDirection(light.toLight) && isFinite(light.irradiance);
@@ -273,7 +269,7 @@ ShadowFit fitShadowMap(std::span<const PlacedMesh> placed, const SurfaceLight& l
     projection.isCube =
         light.kind == LightKind::point || (light.kind == LightKind::spot && light.cosOuter < kOneLayerCosine);
     if (projection.isPerspective) projection.origin = light.position_m;
-    if (light.kind == LightKind::directional) setAxes(projection, scaled(light.toLight, -1));
+    if (light.kind == LightKind::directional) setAxes(projection, scaledBy(light.toLight, -1));
     if (light.kind == LightKind::spot && !projection.isCube) setAxes(projection, light.axis);
 
     std::vector<Extent> extents;

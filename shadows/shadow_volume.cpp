@@ -7,17 +7,13 @@
 #include "numeric/check.h"
 #include "numeric/elementary.h"
 #include "numeric/parallel.h"
+#include "numeric/vectors.h"
 #include "shadows/exact_side.h"
 
 namespace etalon {
 namespace {
 
 constexpr size_t kTrianglesPerTask = 4096;
-
-double dot(const glm::dvec3& a, const glm::dvec3& b) { return a.x * b.x + (a.y * b.y + a.z * b.z); }
-glm::dvec3 cross(const glm::dvec3& a, const glm::dvec3& b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
 
 // Some triangles of a mesh.
 struct Part {
@@ -81,7 +77,7 @@ double signedVolume(std::span<const glm::dvec3> positions, std::span<const uint3
         triangles.empty() ? glm::dvec3(0) : positions[indices[3 * size_t{triangles[0]}]];
     Part{positions, indices, triangles}.forEachTriangle(
         [&](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
-            sum = sum + dot(a - origin, cross(b - origin, c - origin));
+            sum = sum + dotOf(a - origin, crossOf(b - origin, c - origin));
         });
     return sum / 6;
 }
@@ -94,9 +90,9 @@ bool mayBeInside(std::span<const glm::dvec3> positions, std::span<const uint32_t
     double turned_rad = 0;
     part.forEachTriangle([&](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
         const glm::dvec3 u = a - point, v = b - point, w = c - point;
-        const double lu = std::sqrt(dot(u, u)), lv = std::sqrt(dot(v, v)), lw = std::sqrt(dot(w, w));
-        const double divisor = lu * lv * lw + (dot(u, v) * lw + (dot(v, w) * lu + dot(w, u) * lv));
-        turned_rad = turned_rad + 2 * atan2Of(dot(u, cross(v, w)), divisor);
+        const double lu = std::sqrt(dotOf(u, u)), lv = std::sqrt(dotOf(v, v)), lw = std::sqrt(dotOf(w, w));
+        const double divisor = lu * lv * lw + (dotOf(u, v) * lw + (dotOf(v, w) * lu + dotOf(w, u) * lv));
+        turned_rad = turned_rad + 2 * atan2Of(dotOf(u, crossOf(v, w)), divisor);
     });
     constexpr double kQuarterOfASphere = 3.14;
     return !(std::fabs(turned_rad) < kQuarterOfASphere);

@@ -53,6 +53,7 @@ template <>
 struct NumberTraits<bench::Approximate> {
     static constexpr int lanes = kLanes;
     using Integer = Lanes<int32_t, kLanes>;
+    using Stored = float;
 };
 
 #if defined(ETALON_BENCH_POWER_IN_FLOAT)

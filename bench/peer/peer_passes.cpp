@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "bench/peer/shaders.h"
+#include "numeric/vectors.h"
 #include "raster/blur.h"
 
 namespace etalon::bench {
@@ -43,7 +44,6 @@ PeerPasses::MeshBuffers PeerPasses::upload(const SurfaceMesh& mesh) {
 }
 
 DeviceBuffer PeerPasses::shadingUniforms(const SurfaceScene& scene) {
-    constexpr double kPi = std::numbers::pi;
     const SurfaceMaterial& m = scene.materials[0];
     ShadingUniforms uniforms;
     uniforms.diffuse = toFloats(m.diffuse / kPi, m.exponent);

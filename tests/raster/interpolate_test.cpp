@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "numeric/number_lanes.h"
+#include "numeric/number.h"
 #include "numeric/rounded.h"
 #include "numeric/truth.h"
 #include "raster/raster_kernels.h"

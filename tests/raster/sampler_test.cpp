@@ -252,7 +252,7 @@ TEST_CASE_TEMPLATE("SmallFormatsSampleAConstantExactlyToo", R, Rounded<kFp16>, R
                 for (int bits : {kExactFraction, 4, 8})
                     for (float u : awkwardCoordinates(11, 200)) {
                         const R v = sampleAt(image, R(u), R(1.3 - u), {filter, wrap, wrap, bits});
-                        if constexpr (NumberTraits<R>::lanes == 1)
+                        if constexpr (Number<R>::lanes == 1)
                             REQUIRE(v == R(0.7f));
                         else
                             REQUIRE(v.v[1] == R(0.7f).v[1]);
