@@ -238,6 +238,7 @@ size_t mismatchesOf(uint32_t first, uint32_t last, uint32_t step) {
             compare(a - b, exactA - exactB);
             compare(a * b, exactA * exactB);
             compare(a / b, exactA / exactB);
+            compare(powOf(a, b), powOf(exactA, exactB));
         }
     }
     return mismatches;
