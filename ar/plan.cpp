@@ -98,9 +98,9 @@ class Planner : public std::enable_shared_from_this<Planner> {
 
     // Images are sampled with their sizes as numbers of the fragment arithmetic.
     void requireSampling(const Profile& profile, const char* what, int line, int width, int height) const {
-        if (!profile.fragment.hasFormat()) return;
+        if (!profile.fragment.format) return;
         for (const int size : {width, height})
-            if (!holds(profile.fragment.format, size))
+            if (!holds(*profile.fragment.format, size))
                 throw InputError(formatText(
                     "{}: {} of {}x{} texels cannot be sampled in the profile {}: its format holds no {}",
                     where(scene_, line), what, width, height, profile.name, size));

@@ -67,7 +67,7 @@ BitPlane arithmeticPlane(std::string name, const ArgumentTable& table) {
 
 BitPlane emulatedPlane(Format format, std::string name, const ArgumentTable& table) {
     const EmulatedScope scope(format);
-    if (Arithmetic(format).type == NumberType::narrow)
+    if (Arithmetic(format).type() == NumberType::narrow)
         return arithmeticPlane<NarrowLanes>(std::move(name), table);
     return arithmeticPlane<EmulatedLanes>(std::move(name), table);
 }
@@ -95,7 +95,7 @@ BitPlane elementaryPlane(std::string name, const NumberTables& tables) {
 
 BitPlane emulatedElementaryPlane(Format format, std::string name, const NumberTables& tables) {
     const EmulatedScope scope(format);
-    if (Arithmetic(format).type == NumberType::narrow)
+    if (Arithmetic(format).type() == NumberType::narrow)
         return elementaryPlane<NarrowLanes>(std::move(name), tables);
     return elementaryPlane<EmulatedLanes>(std::move(name), tables);
 }
@@ -238,6 +238,7 @@ size_t mismatchesOf(uint32_t first, uint32_t last, uint32_t step) {
             compare(a - b, exactA - exactB);
             compare(a * b, exactA * exactB);
             compare(a / b, exactA / exactB);
+            compare(powOf(a, b), powOf(exactA, exactB));
         }
     }
     return mismatches;

@@ -26,7 +26,7 @@ const char* roundingName(Rounding rounding) {
 }  // namespace
 
 std::string arithmeticName(const Arithmetic& arithmetic) {
-    switch (arithmetic.type) {
+    switch (arithmetic.type()) {
         case NumberType::fp32:
             return "fp32";
         case NumberType::fp64:
@@ -37,7 +37,7 @@ std::string arithmeticName(const Arithmetic& arithmetic) {
         case NumberType::emulated:
             break;
     }
-    const Format& f = arithmetic.format;
+    const Format& f = *arithmetic.format;
     for (const NamedFormat& named : namedFormats())
         if (named.format == f) return std::string(named.name);
     std::string name = formatText("{} bits, exponents {} to {}, {}, subnormals {}, {}", f.significandBits,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "numeric/format.h"
@@ -17,28 +18,38 @@ enum class NumberType : uint8_t {
     truth,     // 192 bits (numeric/truth.h), one at a time
 };
 
-// A value: a format that a user makes up is one too.
+// A value: a format that a user makes up is one too. Made of a format, it computes in that format, digit for
+// digit; fp32, fp64 and truth are made by name.
 struct Arithmetic {
-    NumberType type = NumberType::fp32;
-    Format format = kFp32;  // of the narrow and the emulated type
+    std::optional<Format> format;  // none: native numbers, or truth
 
-    constexpr Arithmetic() = default;
-    constexpr explicit Arithmetic(NumberType numberType) : type(numberType) {}
-    constexpr explicit Arithmetic(Format emulated)
-        : type(emulated == kFp16 || emulated == kBf16 ? NumberType::narrow : NumberType::emulated),
-          format(emulated) {}
-    friend constexpr bool operator==(const Arithmetic&, const Arithmetic&) = default;
+    constexpr Arithmetic() = default;  // fp32
+    constexpr explicit Arithmetic(Format of) : format(of) {}
+    friend constexpr bool operator==(const Arithmetic& a, const Arithmetic& b) {
+        return a.format == b.format && (a.format || a.native_ == b.native_);
+    }
 
-    // Whether numbers are those of `format`.
-    constexpr bool hasFormat() const { return type == NumberType::narrow || type == NumberType::emulated; }
+    // What passes run over: the fastest of the types whose numbers are these.
+    constexpr NumberType type() const {
+        if (!format) return native_;
+        return *format == kFp16 || *format == kBf16 ? NumberType::narrow : NumberType::emulated;
+    }
 
     static const Arithmetic truth, fp64, fp32;
     // The formats of numeric/format.h.
     static const Arithmetic fp32Flush, fp32Nv40, fp16, fp16Nv40, bf16, fp24R300;
+
+  private:
+    static constexpr Arithmetic ofNative(NumberType type) {
+        Arithmetic arithmetic;
+        arithmetic.native_ = type;
+        return arithmetic;
+    }
+    NumberType native_ = NumberType::fp32;  // without a format
 };
-inline constexpr Arithmetic Arithmetic::truth{NumberType::truth};
-inline constexpr Arithmetic Arithmetic::fp64{NumberType::fp64};
-inline constexpr Arithmetic Arithmetic::fp32{NumberType::fp32};
+inline constexpr Arithmetic Arithmetic::truth = ofNative(NumberType::truth);
+inline constexpr Arithmetic Arithmetic::fp64 = ofNative(NumberType::fp64);
+inline constexpr Arithmetic Arithmetic::fp32 = ofNative(NumberType::fp32);
 inline constexpr Arithmetic Arithmetic::fp32Flush{kFp32Flush};
 inline constexpr Arithmetic Arithmetic::fp32Nv40{kFp32Nv40};
 inline constexpr Arithmetic Arithmetic::fp16{kFp16};

@@ -111,9 +111,9 @@ template <class Table>
 class PassesIn {
   public:
     explicit PassesIn(const Arithmetic& arithmetic)
-        : format_(arithmetic.format),
-          table_(arithmetic.type == NumberType::truth ? level_truth::passesOf<Table>(arithmetic.type)
-                                                      : passesOfActiveLevel<Table>(arithmetic.type)) {}
+        : format_(arithmetic.format.value_or(kFp32)),
+          table_(arithmetic.type() == NumberType::truth ? level_truth::passesOf<Table>(arithmetic.type())
+                                                        : passesOfActiveLevel<Table>(arithmetic.type())) {}
     const Table* operator->() const { return &table_; }
 
   private:

@@ -190,6 +190,10 @@ struct ElementaryFunctions<Narrow<D>> {
             y, x, [](auto a, auto b) { return atan2InDouble(a, b, emulatedFormat.lowestExponent, false); });
     }
     static R powOf(R x, R y) {
+        if constexpr (!std::same_as<D, float>) {
+            R power;
+            if (isFractionPower(x.v, y.v, power.v)) return power;
+        }
         return inDouble(
             x, y, [](auto a, auto b) { return powInDouble(a, b, emulatedFormat.lowestExponent, false); });
     }
@@ -201,6 +205,56 @@ struct ElementaryFunctions<Narrow<D>> {
     }
 
   private:
+    // x^y in float, where x is in [0, 1] and the float decides every lane: whatever lies as near to it as the power does
+    // becomes the same number of the format, so that the double would, too. Else false.
+    //   x = 2^e m with m in [sqrt(1/2), sqrt(2)],  log2 m = 2/ln(2) atanh(s),  s = (m - 1) / (m + 1),
+    //   p = e y + y log2 m,  x^y = 2^whole e^z,  z = ln(2) (p - whole).
+    // With u = 2^-24: m - 1, m + 1, e y and e y - whole are exact, y log2 m is within 5.1 u and the series of e^z within
+    // 2.3 u of themselves; what the series leave out is below u / 10. Together 3.5 |p| u + 4.5 u.
+    template <int N>
+    [[gnu::noinline]] static bool isFractionPower(Lanes<float, N> x, Lanes<float, N> y,
+                                                  Lanes<float, N>& power) {
+        using L = Lanes<float, N>;
+        using B = FloatBits<L>;
+        using Whole = Lanes<int32_t, N>;
+        constexpr float kPerExponent = 0x1p-22f, kAtLeast = 0x1.8p-22f;
+        constexpr double kLeastScale = -100;  // binades of float that results may lie in
+        const L zero(0.0), one(1.0), lowest(emulatedFormat.lowestExponent), least = lowest - L(2.0);
+        const auto isZero = x == zero;
+        // No subnormals of float.
+        const auto isFraction = isZero || (x >= L(0x1p-126) && x <= one);
+        if (anyOf(!(isFraction && y >= L(0x1p-100) && y <= L(0x1p70)))) return false;
+
+        constexpr int32_t kRootOfHalf = 0x3f3504f3, kFractionMask = 0x7fffff, kFractionBits = 23, kBias = 127;
+        const auto fromRoot = (typename Whole::Vector)B::of(select(isZero, one, x)) - kRootOfHalf;
+        const L e = convertLanes<float>(Whole(fromRoot >> kFractionBits));
+        const L m = B::from((typename B::Bits)((fromRoot & kFractionMask) + kRootOfHalf));
+        const L s = (m - one) / (m + one), s2 = s * s;
+        L sum(1.0 / 9.0);
+        for (const double term : {1.0 / 7.0, 1.0 / 5.0, 1.0 / 3.0}) sum = L(term) + s2 * sum;
+        const L log2m = (s + (s * s2) * sum) * L(2.8853900817779268);  // 2 / ln 2
+
+        // Below 2^lowest the power is 0.
+        const L high = e * y, low = y * log2m, p = high + low;
+        const auto isNothing = isZero || p <= least;
+        const L whole = floorOf(select(isNothing, zero, p) + L(0.5));
+        const L z = select(isNothing, zero, (high - whole) + low) * L(0.69314718055994531);  // ln 2
+        L series(1.0 / 5040.0);
+        for (const double term : {1.0 / 720.0, 1.0 / 120.0, 1.0 / 24.0, 1.0 / 6.0, 1.0 / 2.0, 1.0})
+            series = L(term) + z * series;
+        const auto isTooSmall = whole < L(kLeastScale);
+        const auto exponent = toInteger(select(isTooSmall, zero, whole)).v + kBias;
+        const L value = (one + z * series) * B::from((typename B::Bits)(exponent << kFractionBits));
+        const L error = value * (select(isNothing, zero, -p) * L(kPerExponent) + L(kAtLeast));
+
+        const L lowestNumber(powerOfTwo(static_cast<int>(emulatedFormat.lowestExponent)));
+        const auto numberOf = [&](const L& v) { return select(v < lowestNumber, zero, R::rounded(v)); };
+        const L number = numberOf(value - error);
+        if (anyOf(!(isNothing || (number == numberOf(value + error) && !isTooSmall)))) return false;
+        power = select(isNothing, zero, number);
+        return true;
+    }
+
     template <class F>
     static R inDouble(R a, R b, F&& f) {
         const auto once = [&](auto x, auto y) {

@@ -17,7 +17,7 @@ struct ProbeErrors {
 // multiple of bf16's errors, in proportion to the distance of their numbers.
 constexpr ProbeErrors probeErrors(const Arithmetic& arithmetic) {
     constexpr ProbeErrors kOfFp32 = {5e-7, 1e-6, 1e-7}, kOfBf16 = {4e-2, 3e-2, 5e-3};
-    switch (arithmetic.type) {
+    switch (arithmetic.type()) {
         case NumberType::truth:
         case NumberType::fp64:
             return {1e-14, 1e-14, 1e-15};
@@ -27,7 +27,7 @@ constexpr ProbeErrors probeErrors(const Arithmetic& arithmetic) {
         case NumberType::emulated:
             break;
     }
-    const Format& format = arithmetic.format;
+    const Format& format = *arithmetic.format;
     if (format == kFp24R300) return {6e-4, 4e-4, 2e-4};
     if (format.rounding == Rounding::nearestEven && format.significandBits == kFp32.significandBits)
         return kOfFp32;

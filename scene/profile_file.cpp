@@ -72,7 +72,8 @@ Format readFormat(const std::string& file, const TomlValue& value, Format format
 // The name of an arithmetic, or a table.
 Arithmetic readFragment(const TableReader& reader, const Arithmetic& base) {
     const TomlValue& value = reader.value("fragment");
-    if (value.kind == TomlKind::table) return Arithmetic(readFormat(reader.file(), value, base.format));
+    if (value.kind == TomlKind::table)
+        return Arithmetic(readFormat(reader.file(), value, base.format.value_or(kFp32)));
     if (value.kind != TomlKind::string)
         reader.failKey("fragment", "must be the name of an arithmetic or a table of a format's fields");
     std::vector<std::string_view> names = {"truth", "fp64"};

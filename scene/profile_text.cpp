@@ -124,10 +124,10 @@ std::vector<ProfileField> profileFields(const Profile& profile) {
         fields.push_back(std::move(field));
     };
     const auto addNumber = [&](const char* key, auto value) { add(key, formatText("{}", value), true); };
-    if (!profile.fragment.hasFormat()) {
+    if (!profile.fragment.format) {
         add("fragment", arithmeticName(profile.fragment));
     } else {
-        const Format& f = profile.fragment.format;
+        const Format& f = *profile.fragment.format;
         addNumber("fragment.significand_bits", f.significandBits);
         addNumber("fragment.min_exponent", f.minExponent);
         addNumber("fragment.max_exponent", f.maxExponent);

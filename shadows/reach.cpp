@@ -50,12 +50,12 @@ struct Bounds {
 
 int significandBitsOf(const Arithmetic& arithmetic) {
     constexpr int kDoubleBits = 53;
-    switch (arithmetic.type) {
+    switch (arithmetic.type()) {
         case NumberType::fp32:
             return kFp32.significandBits;
         case NumberType::narrow:
         case NumberType::emulated:
-            return arithmetic.format.significandBits;
+            return arithmetic.format->significandBits;
         case NumberType::fp64:
         case NumberType::truth:
             break;

@@ -5,6 +5,8 @@
 #include <limits>
 #include <set>
 
+#include "numeric/arithmetic.h"
+
 using namespace etalon;
 
 TEST_CASE("LimitsOfFp32AreThoseOfFloat") {
@@ -25,6 +27,20 @@ TEST_CASE("LimitsOfNarrowFormatsAreTheDocumentedOnes") {
     CHECK(epsilonOf(kBf16) == 0x1p-7);
     CHECK(largestFinite(kFp24R300) == 0x1.ffffp64);
     CHECK(smallestPositive(kFp24R300) == 0x1p-62);
+}
+
+// However an arithmetic came to its format: made of it, or set later.
+TEST_CASE("TheTypeOfAnArithmeticFollowsItsFormat") {
+    CHECK(Arithmetic::fp32.type() == NumberType::fp32);
+    CHECK(Arithmetic::fp64.type() == NumberType::fp64);
+    CHECK(Arithmetic::truth.type() == NumberType::truth);
+    for (Arithmetic arithmetic : {Arithmetic::fp64, Arithmetic::fp24R300, Arithmetic::bf16}) {
+        arithmetic.format = kFp16;
+        CHECK(arithmetic.type() == NumberType::narrow);
+        CHECK(arithmetic == Arithmetic::fp16);
+        arithmetic.format->rounding = Rounding::towardZero;
+        CHECK(arithmetic.type() == NumberType::emulated);
+    }
 }
 
 TEST_CASE("NamedFormatsAreSupportedAndNamedOnce") {
