@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "numeric/elementary.h"
 #include "numeric/sum.h"
 #include "probes/convert.h"
 #include "probes/texel_grid.h"
@@ -41,7 +42,7 @@ ProbeStatistics statisticsOf(const Probe& probe, int threads) {
         }
     }
     if (s.smallest > s.largest) s.smallest = s.largest = 0;
-    if (s.largest > 0) s.dynamicRange_stops = std::log2(s.largest) - std::log2(smallestPositive);
+    if (s.largest > 0) s.dynamicRange_stops = log2InDouble(s.largest) - log2InDouble(smallestPositive);
     if (weights.empty()) return s;
     s.solidAngle_sr = fixedSum(weights, threads);
     for (int c = 0; c < 3; c++) s.mean[c] = fixedSum(weighted[c], threads) / s.solidAngle_sr;

@@ -1,4 +1,8 @@
 // Separable Gaussian blur. The text is raster/kernels/blur.glsl.
+//
+// Not here: boxes, recursive filters or levels of size in place of the kernel; widths that change over the
+// image, masks, and edges that are kept; borders other than the repeated pixel. Channels do not mix: alpha
+// weighs nothing.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,7 @@
 // Clipping of one triangle in clip space (rule 2).
+//
+// Not here: planes of the user, clip and cull distances, and the clipping of attributes: a vertex that clipping
+// makes has barycentric coordinates. Polygons stay whole; their fans are made by raster/setup.h.
 #pragma once
 
 #include <array>

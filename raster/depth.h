@@ -1,4 +1,7 @@
 // Depth formats and bias (rules 6 and 7).
+//
+// Not here: ranges of depth other than [0, 1] and float depths outside of it, clearing to another depth than the
+// farthest, and compression.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,10 @@
 // Draws triangles into a render target by the rules of docs/specification.md.
+//
+// It draws indexed triangle lists whose vertices are in clip space, and finds visibility. Not here:
+//   - points, lines, strips, fans, restarting indices, instances, vertex or geometry programs, tessellation
+//   - several viewports or scissors at once, a range of depth other than [0, 1], clip planes of the user
+//   - colour, blending, discarded fragments, alpha to coverage: shading follows (lighting/shade.h)
+//   - conservative coverage, sample masks, sample positions of the user, queries of samples
 #pragma once
 
 #include <cstdint>

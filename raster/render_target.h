@@ -1,4 +1,7 @@
 // The depth, stencil and id planes that triangles are drawn into, and the records of the triangles drawn.
+//
+// Not here: colour and attributes, which shading makes of the ids; several layers, levels of size, sample
+// counts other than 1, 4 and 16, resolving of depth or stencil, and packed depth and stencil.
 #pragma once
 
 #include <array>

@@ -20,6 +20,9 @@
 // Error in float against exact arithmetic, u in [0, 1], exact fractions; W and D the size and the largest
 // difference of neighbouring texels on an axis, V the largest texel magnitude (bilinearFloatErrorBound):
 //   |error| <= 2^-23 (W_x D_x + W_y D_y + 5 V)
+//
+// Not here: levels of size and what chooses them, anisotropic and cubic filters, borders of a colour,
+// volumes, sRGB and integer texels, gathers, comparisons (shadows/shadow_map.h has its own).
 #pragma once
 
 #include "numeric/check.h"

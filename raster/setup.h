@@ -1,5 +1,8 @@
 // From projected vertices to triangles: assembly, cut and culling (rules 1 to 3), and the tiles that each can
 // touch.
+//
+// Not here: attributes (lighting/tile_triangles.h sets them up for the triangles that are visible), and any
+// removal of triangles that others hide; triangles are neither sorted nor merged.
 #pragma once
 
 #include <array>

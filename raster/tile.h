@@ -1,4 +1,7 @@
 // Visibility of one tile: replays triangles in order (rules 4 to 7, 10 and 11).
+//
+// Not here: shading, depth bounds, depths that fragments make, and samples that are counted. What one call
+// learns of a tile's depths is forgotten by the next one, which reads the planes.
 #pragma once
 
 #include <cstdint>

@@ -4,7 +4,8 @@
 
 // The sRGB transfer function [IEC61966-2-1]: linear [0, 1] to encoded [0, 1], and back.
 real encodeSrgb(real x) {
-    real curve = real(1.055) * powOf(maxOf(x, real(0.0031308)), real(1.0) / real(2.4)) - real(0.055);
+    real perGamma = real(0.4166666666666667);  // 1 / 2.4
+    real curve = real(1.055) * powOf(maxOf(x, real(0.0031308)), perGamma) - real(0.055);
     return select(x <= real(0.0031308), real(12.92) * x, curve);
 }
 real decodeSrgb(real x) {
