@@ -4,7 +4,7 @@
 #include <map>
 
 #include "files/image_io.h"
-#include "files/mesh_loader.h"
+#include "files/mesh.h"
 #include "numeric/text.h"
 #include "numeric/transform.h"
 

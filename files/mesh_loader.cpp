@@ -1,4 +1,4 @@
-#include "files/mesh_loader.h"
+#include "files/mesh.h"
 
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -15,7 +15,6 @@
 #include <new>
 #include <string_view>
 
-#include "files/mesh_normals.h"
 #include "files/ply_check.h"
 #include "numeric/check.h"
 #include "numeric/text.h"

@@ -1,4 +1,4 @@
-#include "files/mesh_normals.h"
+#include "files/mesh.h"
 
 #include <bit>
 #include <glm/vec3.hpp>

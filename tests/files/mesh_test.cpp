@@ -6,8 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "files/mesh_loader.h"
-#include "files/mesh_normals.h"
+#include "files/mesh.h"
 #include "files/ply_check.h"
 #include "numeric/check.h"
 #include "numeric/text.h"

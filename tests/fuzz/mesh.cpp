@@ -3,7 +3,7 @@
 #include <bit>
 #include <cmath>
 
-#include "files/mesh_loader.h"
+#include "files/mesh.h"
 #include "tests/fuzz/fuzz.h"
 
 using namespace etalon;
