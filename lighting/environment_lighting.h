@@ -1,4 +1,4 @@
-// Diffuse light of the environment, over a number type T.
+// Diffuse light of the environment, over a number type T. The text is lighting/kernels/environment_light.glsl.
 #pragma once
 
 #include <array>
@@ -15,46 +15,35 @@ namespace etalon {
 template <class T>
 class EnvironmentLighting {
   public:
-    using vec3 = glm::vec<3, T>;
+#include "numeric/kernel_scope.inc"
 
     // The scene's light as T; it outlives this. sampler: of the map.
-    EnvironmentLighting(const EnvironmentLight& light, const SamplerSettings& sampler)
-        : light_(light), sampler_(sampler) {
+    EnvironmentLighting(const EnvironmentLight& light, const SamplerSettings& sampler) : light_(light) {
         if (light.kind == EnvironmentLight::Kind::harmonics) harmonics_.setCoefficients(light.harmonics);
-        if (light.kind != EnvironmentLight::Kind::texels) return;
-        for (size_t i = 0; i < light.flux.size(); i++) {
-            store(light.directions[i]);
-            store(light.flux[i]);
+        if (light.kind == EnvironmentLight::Kind::texels)
+            for (size_t i = 0; i < light.flux.size(); i++) {
+                store(light.directions[i]);
+                store(light.flux[i]);
+            }
+        if (light.kind == EnvironmentLight::Kind::map) {
+            map_ = TextureView(light.map);
+            sampling_ = samplingOf<Cube>(sampler, map_.width(), map_.height());
         }
     }
 
-    bool empty() const { return light_.kind == EnvironmentLight::Kind::none; }
-
-    // The irradiance of a plane with the unit normal n. Texels are added in their order from 0.
-    vec3 irradiance(const vec3& n) {
-        const T zero(0.0);
-        switch (light_.kind) {
-            case EnvironmentLight::Kind::none:
-                break;
-            case EnvironmentLight::Kind::harmonics: {
-                const vec3 e = harmonics_.sumOfHarmonics(n, light_.harmonics.degree);
-                return {Harmonics::maxOf(zero, e.x), Harmonics::maxOf(zero, e.y),
-                        Harmonics::maxOf(zero, e.z)};
-            }
-            case EnvironmentLight::Kind::texels: {
-                vec3 sum(zero, zero, zero);
-                for (size_t i = 0; i < texels_.size(); i += 6)
-                    sum = kernel_.addIrradiance(sum, n, load(i), load(i + 3));
-                return sum;
-            }
-            case EnvironmentLight::Kind::map: {
-                const TextureView texture(light_.map);
-                return cube_.sampleCubeRgb(texture, n,
-                                           samplingOf<Cube>(sampler_, texture.width(), texture.height()));
-            }
-        }
-        return {zero, zero, zero};
+    // What the text reads, and the functions of other texts that it calls.
+    int environmentKind() const { return static_cast<int>(light_.kind); }
+    int environmentDegree() const { return light_.harmonics.degree; }
+    vec3 sumOfHarmonics(vec3 direction, int degree) { return harmonics_.sumOfHarmonics(direction, degree); }
+    int texelLightCount() const { return static_cast<int>(texels_.size() / 6); }
+    vec3 texelLightDirection(int i) const { return load(6 * static_cast<size_t>(i)); }
+    vec3 texelLightFlux(int i) const { return load(6 * static_cast<size_t>(i) + 3); }
+    vec3 addIrradiance(const vec3& sum, const vec3& n, const vec3& direction, const vec3& flux) {
+        return irradiance_.addIrradiance(sum, n, direction, flux);
     }
+    vec3 mapAlong(vec3 direction) { return cube_.sampleCubeRgb(map_, direction, sampling_); }
+
+#include "lighting/kernels/environment_light.glsl"
 
   private:
     using Harmonics = HarmonicsKernel<T>;
@@ -65,7 +54,7 @@ class EnvironmentLighting {
     void store(const glm::dvec3& v) {
         for (int c = 0; c < 3; c++) {
             std::array<Kept, Number<T>::lanes> lanes;
-            Number<T>::storeKept(kernel_.flooredTerm(T(v[c])), lanes.data());
+            Number<T>::storeKept(irradiance_.flooredTerm(T(v[c])), lanes.data());
             texels_.push_back(lanes[0]);
         }
     }
@@ -75,10 +64,11 @@ class EnvironmentLighting {
     }
 
     const EnvironmentLight& light_;
-    SamplerSettings sampler_;
     Harmonics harmonics_;
-    IrradianceKernel<T> kernel_;
+    IrradianceKernel<T> irradiance_;
     Cube cube_;
+    TextureView map_;
+    typename Cube::Sampling sampling_{};
     std::vector<Kept> texels_;  // direction and flux of each
 };
 

@@ -40,6 +40,7 @@ class TileShaderOf final : public TileShader {
         const SurfaceMaterial* material;
         const CubeMap<float>* cube;
         uint32_t mirror;  // the instance that reflects the scene, or kNoTriangle
+        typename K::Reflectances reflectances;
         std::vector<uint32_t> fragments;
         size_t number = 0;  // Group::number of the first one
     };
@@ -53,19 +54,13 @@ class TileShaderOf final : public TileShader {
     };
     using Lighting = SurfaceLighting<T>;
 
+    using Surroundings = typename Lighting::Surroundings;
+    using Visibility = typename Lighting::VisibilityBuffer;
+
     // What the fragments of a group are shaded with: weights, and what the wanted outputs read.
     struct Surface {
         Weights w;
         vec3 normal, position;
-    };
-    // What reaches the fragments of a group of each light; the group begins at point `first` of points_.
-    struct Shadows {
-        const TileShaderOf& shader;
-        size_t first;
-        bool casts(size_t light) const { return shader.casts_[light]; }
-        T visibility(size_t light) const {
-            return Number<T>::load(&shader.visibility_[light * kChunk + first]);
-        }
     };
     // Fragments whose visibility is found at once, in whole groups.
     static constexpr size_t kChunk = 512;
@@ -78,24 +73,24 @@ class TileShaderOf final : public TileShader {
     size_t bucketOf(const SurfaceMaterial& material, const CubeMap<float>* cube, uint32_t mirror);
     void sortIntoBuckets();
     Group groupOf(const Bucket& bucket, size_t first, int count) const;
-    struct Parts {
-        bool ambient, diffuse, specular, mirror, distance, needNormal, needEye, needPlace;
+    struct Parts : Lighting::SurfaceParts {
+        bool distance, needNormal, needEye, needPlace;
     };
     Parts partsOf(const SurfaceMaterial& material) const;
     static void setItems(const Group& group);
     Surface surfaceOf(const Group& group, bool needNormal, bool needPosition) const;
     void shadeShadowed(const Bucket& bucket);
     void resizePoints(size_t count);
-    typename Lighting::Surroundings surroundingsOf(const Weights& w, const Group& group) const;
+    Surroundings surroundingsOf(const Weights& w, const Group& group) const;
     void setPoints(const Group& group, const Surface& surface, size_t first);
     void shadeBackground(const Group& group);
     void shadeSurface(const Bucket& bucket, const Group& group);
-    template <class Reaching>
     void shadeSurface(const Bucket& bucket, const Group& group, const Surface& surface,
-                      const Reaching& shadows);
-    vec3 albedo(const SurfaceMaterial& material, const Weights& w, const Group& group);
-    vec3 sampleEnvironment(vec3 direction);
-    vec3 mirrorRadiance(const Bucket& bucket, vec3 n, vec3 toEye);
+                      const Visibility& visibility);
+    vec3 albedo(const Bucket& bucket, const Weights& w, const Group& group);
+    vec3 mirrored(const Bucket& bucket, const vec3& n, const vec3& toEye);
+    static std::vector<bool> castsOf(const ShadeJob& job);
+    static typename K::EnvironmentView environmentOf(const ShadeJob& job);
     void put(ShadeOutput output, const Group& group, vec3 value);
     void resolve(ShadeOutput output, const PixelRectangle& rectangle, Image<float>& image);
     void copyFirstSample(ShadeOutput output, const PixelRectangle& rectangle, Image<float>& image);
@@ -106,11 +101,12 @@ class TileShaderOf final : public TileShader {
 
     const ShadeJob& job_;
     K kernels_;
+    std::vector<bool> casts_;  // for each light whether its visibility is asked for; empty: for none
     Lighting lighting_;
     SamplerSettings sampler_;
+    typename K::EnvironmentView environment_;
     vec3 ambient_, eye_;
-    std::vector<bool> casts_;    // for each light whether its visibility is asked for; empty: for none
-    bool hasOcclusion_ = false;  // else all is open
+    bool hasOcclusion_ = false;                          // else all is open
     const std::vector<Occlusion>* occlusion_ = nullptr;  // of the tile's fragments, where these have it
     // A chunk: its groups, and the visibility of its points for each light.
     std::vector<std::pair<Group, Surface>> chunk_;
@@ -128,22 +124,39 @@ class TileShaderOf final : public TileShader {
 
 template <class T>
 TileShaderOf<T>::TileShaderOf(const ShadeJob& job)
-    : job_(job), lighting_(job.sources, samplerOf(*job.profile)), sampler_(samplerOf(*job.profile)) {
+    : job_(job),
+      casts_(castsOf(job)),
+      lighting_(job.sources, samplerOf(*job.profile), casts_),
+      sampler_(samplerOf(*job.profile)),
+      environment_(environmentOf(job)) {
     ambient_ = constant(job.scene->ambient);
     eye_ = constant(job.view->eye);
-    buckets_.push_back(Bucket{nullptr, nullptr, kNoTriangle, {}, 0});
+    buckets_.push_back(Bucket{nullptr, nullptr, kNoTriangle, {}, {}, 0});
     hasOcclusion_ = job.occlusion || (job.vertexRadiance &&
                                       std::ranges::any_of(*job.vertexRadiance, [](const VertexRadiance& of) {
                                           return !of.sides[0].open.empty();
                                       }));
+}
+
+template <class T>
+std::vector<bool> TileShaderOf<T>::castsOf(const ShadeJob& job) {
+    std::vector<bool> casts;
     const ShadeRequest& request = job.request;
     if (!job.visibility || job.vertexRadiance ||
         !(request.needs(ShadeOutput::diffuse) || request.needs(ShadeOutput::specular)))
-        return;
+        return casts;
     const LightSources& sources = job.sources;
     for (size_t l = 0; l < sources.lights->size(); l++)
-        casts_.push_back((!sources.shows || (*sources.shows)[l]) && job.visibility->casts(l));
-    if (std::find(casts_.begin(), casts_.end(), true) == casts_.end()) casts_.clear();
+        casts.push_back((!sources.shows || (*sources.shows)[l]) && job.visibility->casts(l));
+    if (std::find(casts.begin(), casts.end(), true) == casts.end()) casts.clear();
+    return casts;
+}
+
+template <class T>
+typename ShadingKernels<T>::EnvironmentView TileShaderOf<T>::environmentOf(const ShadeJob& job) {
+    const SurfaceEnvironment& environment = *job.environment;
+    return {environment.latLong.empty() ? 1 : 0, constant(environment.constant), T(environment.cosRotation),
+            T(-environment.sinRotation)};
 }
 
 // Lists what is visible and sorts it by what shades it.
@@ -205,7 +218,8 @@ size_t TileShaderOf<T>::bucketOf(const SurfaceMaterial& material, const CubeMap<
     };
     size_t b = 1;
     while (b < buckets_.size() && !isOf(buckets_[b])) b++;
-    if (b == buckets_.size()) buckets_.push_back(Bucket{&material, cube, mirror, {}, 0});
+    if (b == buckets_.size())
+        buckets_.push_back(Bucket{&material, cube, mirror, Lighting::reflectancesOf(material), {}, 0});
     return b;
 }
 
@@ -243,10 +257,8 @@ void TileShaderOf<T>::setUpTriangles(bool withPoints) {
 template <class T>
 void TileShaderOf<T>::setFaceNormal(size_t number, uint32_t id, const PlacedMesh& placed) {
     const uint32_t* index = &placed.mesh->indices[3 * size_t{job_.target->triangle(id).triangle}];
-    const vec3 a = constant(placed.positions[index[0]]);
-    const vec3 ab = kernels_.sub3(constant(placed.positions[index[1]]), a);
-    const vec3 ac = kernels_.sub3(constant(placed.positions[index[2]]), a);
-    const vec3 normal = kernels_.unit3(kernels_.cross3(ab, ac));
+    const auto corner = [&](size_t k) { return constant(placed.positions[index[k]]); };
+    const vec3 normal = kernels_.faceNormal(corner(0), corner(1), corner(2));
     const double side = (job_.target->triangle(id).front != placed.mirrored) ? 1.0 : -1.0;
     for (int c = 0; c < 3; c++) faceNormals_[number][c] = side * numberLane(normal[c], 0);
 }
@@ -299,8 +311,7 @@ typename TileShaderOf<T>::Surface TileShaderOf<T>::surfaceOf(const Group& group,
     const vec3 none = constant(glm::dvec3(0));
     Surface surface{triangles_.weights(group.lanes), none, none};
     K kernels;
-    if (needNormal)
-        surface.normal = kernels.scale3(kernels.unit3(triangles_.normal(surface.w)), surface.w.facing);
+    if (needNormal) surface.normal = kernels.seenNormal(triangles_.normal(surface.w), surface.w.facing);
     if (needPosition) surface.position = triangles_.position(surface.w, group.lanes);
     return surface;
 }
@@ -328,7 +339,7 @@ void TileShaderOf<T>::shadeShadowed(const Bucket& bucket) {
                 job_.visibility->find(l, points_, std::span(visibility_).subspan(l * kChunk, count));
         for (size_t g = 0; g < chunk_.size(); g++) {
             setItems(chunk_[g].first);
-            shadeSurface(bucket, chunk_[g].first, chunk_[g].second, Shadows{*this, g * N});
+            shadeSurface(bucket, chunk_[g].first, chunk_[g].second, {&visibility_[g * N], kChunk});
         }
     }
 }
@@ -344,8 +355,8 @@ void TileShaderOf<T>::resizePoints(size_t count) {
 // What the group's fragments see of their surroundings; where they are lit by their vertices, interpolated:
 // then the bent normal is not used.
 template <class T>
-typename TileShaderOf<T>::Lighting::Surroundings TileShaderOf<T>::surroundingsOf(const Weights& w,
-                                                                                 const Group& group) const {
+typename TileShaderOf<T>::Surroundings TileShaderOf<T>::surroundingsOf(const Weights& w,
+                                                                       const Group& group) const {
     if (job_.vertexRadiance) return {triangles_.open(w, group.lanes), constant(glm::dvec3(0))};
     const auto load = [&](const auto& valueOf) {
         return Number<T>::generate([&](int i) {
@@ -382,23 +393,22 @@ template <class T>
 void TileShaderOf<T>::shadeBackground(const Group& group) {
     put(ShadeOutput::distance, group, constant(glm::dvec3(std::numeric_limits<double>::infinity())));
     if (!job_.request.needs(ShadeOutput::background)) return;
-    const SurfaceEnvironment& environment = *job_.environment;
-    if (environment.latLong.empty()) {
-        put(ShadeOutput::background, group, constant(environment.constant));
-        put(ShadeOutput::beauty, group, constant(environment.constant));
-        return;
-    }
     const View& view = *job_.view;
     const int n = job_.target->format.subpixelBits;
     const auto centre = [&](const std::array<int32_t, N>& position_subpx) {
         return Number<T>::generate(
             [&](int i) { return (position_subpx[static_cast<size_t>(i)] >> n) + 0.5; });
     };
-    const T x = centre(group.lanes.x_subpx), y = centre(group.lanes.y_subpx);
-    const vec3 ray = kernels_.viewRay(x, y, T(view.centreX_px), T(view.centreY_px), constant(view.forward),
-                                      constant(view.perX), constant(view.perY));
-    const vec3 direction = kernels_.rotateY(ray, T(environment.cosRotation), T(-environment.sinRotation));
-    const vec3 radiance = sampleEnvironment(direction);
+    const typename K::PixelRays rays{T(view.centreX_px), T(view.centreY_px), constant(view.forward),
+                                     constant(view.perX), constant(view.perY)};
+    TextureView latLong;
+    typename K::Sampling sampling{};
+    if (!job_.environment->latLong.empty()) {
+        latLong = TextureView(job_.environment->latLong);
+        sampling = samplingOf<K>(sampler_, latLong.width(), latLong.height());
+    }
+    const vec3 radiance = kernels_.backgroundRadiance(
+        environment_, latLong, sampling, rays, centre(group.lanes.x_subpx), centre(group.lanes.y_subpx));
     put(ShadeOutput::background, group, radiance);
     put(ShadeOutput::beauty, group, radiance);
 }
@@ -407,8 +417,7 @@ template <class T>
 void TileShaderOf<T>::shadeSurface(const Bucket& bucket, const Group& group) {
     const Parts parts = partsOf(*bucket.material);
     if (!(parts.ambient || parts.needNormal || parts.needEye)) return;
-    shadeSurface(bucket, group, surfaceOf(group, parts.needNormal, parts.needEye || parts.needPlace),
-                 typename Lighting::Unshadowed());
+    shadeSurface(bucket, group, surfaceOf(group, parts.needNormal, parts.needEye || parts.needPlace), {});
 }
 
 // What of a material the wanted outputs show, and what that needs.
@@ -417,13 +426,15 @@ typename TileShaderOf<T>::Parts TileShaderOf<T>::partsOf(const SurfaceMaterial& 
     const ShadeRequest& request = job_.request;
     const bool every = job_.everyPart;
     const bool hasDiffuse = every ? hasDiffusePart(material) : reflectsDiffusely(material);
-    Parts parts;
+    Parts parts{};
     parts.ambient = hasDiffuse && request.needs(ShadeOutput::ambient);
     parts.diffuse = hasDiffuse && lighting_.hasDiffuse() && request.needs(ShadeOutput::diffuse);
     parts.specular = (every ? hasSpecularPart(material) : reflectsSpecularly(material)) &&
                      lighting_.hasSpecular() && request.needs(ShadeOutput::specular);
     parts.mirror =
         (every ? hasMirrorPart(material) : mirrors(material)) && request.needs(ShadeOutput::mirror);
+    parts.isOccluded = hasOcclusion_ && (parts.ambient || parts.diffuse);
+    parts.isPerVertex = job_.vertexRadiance != nullptr;
     parts.distance = request[ShadeOutput::distance];
     parts.needNormal = parts.diffuse || parts.specular || parts.mirror || request[ShadeOutput::normals];
     parts.needEye = parts.specular || parts.mirror || parts.distance;
@@ -432,70 +443,52 @@ typename TileShaderOf<T>::Parts TileShaderOf<T>::partsOf(const SurfaceMaterial& 
 }
 
 template <class T>
-template <class Reaching>
 void TileShaderOf<T>::shadeSurface(const Bucket& bucket, const Group& group, const Surface& interpolated,
-                                   const Reaching& shadows) {
-    const SurfaceMaterial& material = *bucket.material;
-    const auto [ambient, diffuse, specular, mirror, distance, needNormal, needEye, needPlace] =
-        partsOf(material);
-    const vec3 n = interpolated.normal;
-    vec3 toEye = constant(glm::dvec3(0));
-    if (needNormal) put(ShadeOutput::normals, group, n);
-    if (needEye) {
-        toEye = kernels_.sub3(eye_, interpolated.position);
-        if (distance) put(ShadeOutput::distance, group, vec3(kernels_.length3(toEye), T(0.0), T(0.0)));
-        toEye = kernels_.unit3(toEye);
-    }
-
-    // Radiance, each component in its own sum over the lights.
-    vec3 sum = constant(glm::dvec3(0));
-    const auto add = [&](ShadeOutput output, vec3 radiance) {
-        put(output, group, radiance);
-        sum = kernels_.add3(sum, radiance);
-    };
+                                   const Visibility& visibility) {
+    const Parts parts = partsOf(*bucket.material);
+    const vec3 none = constant(glm::dvec3(0));
     const Weights& w = interpolated.w;
-    const vec3 surface = ambient || diffuse ? albedo(material, w, group) : sum;
-    const bool isOccluded = hasOcclusion_ && (ambient || diffuse);
-    const auto surroundings = isOccluded ? surroundingsOf(w, group) : typename Lighting::Surroundings{};
-    if (ambient) {
-        const vec3 arriving = isOccluded ? kernels_.scale3(ambient_, surroundings.open) : ambient_;
-        add(ShadeOutput::ambient, kernels_.mul3(surface, arriving));
-    }
-    if (job_.vertexRadiance) {
-        if (diffuse) add(ShadeOutput::diffuse, triangles_.diffuseRadiance(w, group.lanes));
-        if (specular) add(ShadeOutput::specular, triangles_.specularRadiance(w, group.lanes));
-    } else {
-        const typename Lighting::Point point{interpolated.position, n, toEye};
-        const auto lights = lighting_.reflected(material, point, surface, diffuse, specular, shadows,
-                                                isOccluded ? &surroundings : nullptr);
-        if (diffuse) add(ShadeOutput::diffuse, lights.diffuse);
-        if (specular) add(ShadeOutput::specular, lights.specular);
-    }
-    if (mirror) add(ShadeOutput::mirror, mirrorRadiance(bucket, n, toEye));
-    put(ShadeOutput::beauty, group, sum);
+    typename K::SurfacePoint point{interpolated.position, interpolated.normal, none};
+    if (parts.needNormal) put(ShadeOutput::normals, group, point.normal);
+    if (parts.distance)
+        put(ShadeOutput::distance, group, vec3(kernels_.distanceToEye(eye_, point.position), T(0.0), T(0.0)));
+    if (parts.needEye) point.toEye = kernels_.directionToEye(eye_, point.position);
+
+    const vec3 surface = parts.ambient || parts.diffuse ? albedo(bucket, w, group) : none;
+    const Surroundings surroundings =
+        parts.isOccluded ? surroundingsOf(w, group) : Surroundings{T(1.0), none};
+    typename K::Reflected ofVertices{none, none};
+    if (parts.isPerVertex && parts.diffuse) ofVertices.diffuse = triangles_.diffuseRadiance(w, group.lanes);
+    if (parts.isPerVertex && parts.specular)
+        ofVertices.specular = triangles_.specularRadiance(w, group.lanes);
+    const vec3 shown = parts.mirror ? mirrored(bucket, point.normal, point.toEye) : none;
+    const auto radiance =
+        lighting_.surfaceRadiance(parts, point, bucket.reflectances, surface, surroundings, ambient_,
+                                  lighting_.lights(), visibility, ofVertices, shown);
+    if (parts.ambient) put(ShadeOutput::ambient, group, radiance.ambient);
+    if (parts.diffuse) put(ShadeOutput::diffuse, group, radiance.diffuse);
+    if (parts.specular) put(ShadeOutput::specular, group, radiance.specular);
+    if (parts.mirror) put(ShadeOutput::mirror, group, radiance.mirror);
+    put(ShadeOutput::beauty, group, radiance.beauty);
 }
 
 template <class T>
-typename TileShaderOf<T>::vec3 TileShaderOf<T>::albedo(const SurfaceMaterial& material, const Weights& w,
+typename TileShaderOf<T>::vec3 TileShaderOf<T>::albedo(const Bucket& bucket, const Weights& w,
                                                        const Group& group) {
-    if (!material.checker) return constant(material.diffuse);
-    const auto [u, v] = triangles_.surfaceCoordinates(w, group.lanes);
-    return lighting_.surfaceColour(material, u, v);
+    std::array<T, 2> uv{T(0.0), T(0.0)};
+    if (bucket.reflectances.hasChecker != 0) uv = triangles_.surfaceCoordinates(w, group.lanes);
+    return kernels_.albedoAt(bucket.reflectances, uv[0], uv[1]);
 }
 
+// What the bucket's mirrors show. The environment's cube map is stored without its rotation.
 template <class T>
-typename TileShaderOf<T>::vec3 TileShaderOf<T>::mirrorRadiance(const Bucket& bucket, vec3 n, vec3 toEye) {
-    const SurfaceEnvironment& environment = *job_.environment;
-    if (bucket.cube == nullptr)
-        return kernels_.mul3(constant(bucket.material->reflectance), constant(environment.constant));
-    vec3 direction = kernels_.mirrorDirection(n, toEye);
-    // The environment's cube map is stored without its rotation, scene cube maps in world space.
-    if (bucket.cube == job_.environmentCube)
-        direction = kernels_.rotateY(direction, T(environment.cosRotation), T(-environment.sinRotation));
+typename TileShaderOf<T>::vec3 TileShaderOf<T>::mirrored(const Bucket& bucket, const vec3& n,
+                                                         const vec3& toEye) {
+    if (bucket.cube == nullptr) return kernels_.mirroredRadiance(environment_, 0, {}, {}, n, toEye);
     const TextureView texture(*bucket.cube);
     const auto sampling = samplingOf<K>(sampler_, texture.width(), texture.height());
-    return kernels_.mul3(constant(bucket.material->reflectance),
-                         kernels_.sampleCubeRgb(texture, direction, sampling));
+    const int shows = bucket.cube == job_.environmentCube ? 1 : 2;
+    return kernels_.mirroredRadiance(environment_, shows, texture, sampling, n, toEye);
 }
 
 // Keeps the group's values if the output is wanted.
@@ -520,6 +513,7 @@ template <class T>
 void TileShaderOf<T>::resolve(ShadeOutput output, const PixelRectangle& rectangle, Image<float>& image) {
     const auto samples = static_cast<size_t>(job_.target->format.samples);
     const T reciprocal(1.0 / static_cast<double>(samples));
+    std::vector<T> ofPixels(samples);
     const auto width = static_cast<size_t>(rectangle.width());
     for (int row = 0; row < rectangle.height(); row++) {
         forEachLaneGroup<N>(width, [&](size_t first, int active) {
@@ -535,11 +529,11 @@ void TileShaderOf<T>::resolve(ShadeOutput output, const PixelRectangle& rectangl
                         return static_cast<double>(from[tile_.fragmentOf(pixel, s, samples)]);
                     });
                 };
-                T sum = sample(0);
-                for (size_t s = 1; s < samples; s++) sum = kernels_.resolveAdd(sum, sample(s));
-                sum = kernels_.resolveMean(sum, reciprocal);
+                for (size_t s = 0; s < samples; s++) ofPixels[s] = sample(s);
+                const T mean =
+                    kernels_.resolvedSamples({ofPixels.data()}, static_cast<int>(samples), reciprocal);
                 Number<T>::store(
-                    sum, &image.at(rectangle.x0 + static_cast<int>(first), rectangle.y0 + row, c), active);
+                    mean, &image.at(rectangle.x0 + static_cast<int>(first), rectangle.y0 + row, c), active);
             }
         });
     }
@@ -559,13 +553,6 @@ void TileShaderOf<T>::copyFirstSample(ShadeOutput output, const PixelRectangle& 
                 to[i] = static_cast<float>(from[tile_.fragmentOf(firstPixel + i, 0, samples)]);
         }
     }
-}
-
-template <class T>
-typename TileShaderOf<T>::vec3 TileShaderOf<T>::sampleEnvironment(vec3 direction) {
-    const TextureView texture(job_.environment->latLong);
-    return kernels_.sampleLatLong(texture, direction,
-                                  samplingOf<K>(sampler_, texture.width(), texture.height()));
 }
 
 }  // namespace etalon

@@ -3,6 +3,7 @@
 
 #include "numeric/elementary.h"
 #include "numeric/kernel_types.h"
+#include "numeric/number.h"
 #include "raster/sampler.h"
 #include "raster/texture.h"
 
@@ -12,6 +13,8 @@ template <class T>
 struct ShadingKernels {
 #include "numeric/kernel_scope.inc"
 #include "raster/texture_scope.inc"
+#include "raster/sample_scope.inc"
+#include "lighting/light_scope.inc"
 #include "numeric/kernels/vector.glsl"
 #include "raster/kernels/interpolate.glsl"
 #include "raster/kernels/resolve.glsl"
@@ -25,6 +28,10 @@ struct ShadingKernels {
 #include "lighting/kernels/mirror.glsl"
 #include "lighting/kernels/positional_light.glsl"
 #include "lighting/kernels/rotate_y.glsl"
+#include "lighting/kernels/environment_view.glsl"
+#include "lighting/kernels/surface_point.glsl"
+#include "lighting/kernels/reflectances.glsl"
+#include "lighting/kernels/surface_light.glsl"
 };
 
 }  // namespace etalon

@@ -48,6 +48,7 @@ inline bool reflectsSpecularly(const SurfaceMaterial& material) {
 inline bool mirrors(const SurfaceMaterial& material) { return !isBlack(material.reflectance); }
 
 // directional: from infinitely far; point: in all directions from a place; spot: in a cone.
+// Kernel texts number them so (lighting/kernels/light_scope.glsl).
 enum class LightKind : uint8_t { directional, point, spot };
 
 struct SurfaceLight {
@@ -93,6 +94,7 @@ struct SurfaceInstance {
 //   texels: the sum over the texels of a probe, each of them a light (probes/irradiance.h)
 //   map: a cube map of irradiance, looked up along the normal
 struct EnvironmentLight {
+    // The kernel text numbers them so (lighting/kernels/environment_light.glsl).
     enum class Kind : uint8_t { none, harmonics, texels, map };
     Kind kind = Kind::none;
     SphericalHarmonics harmonics;

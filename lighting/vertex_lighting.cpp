@@ -16,6 +16,11 @@ void lightIn(const Profile& profile, const LightSources& sources, const SurfaceM
     using vec3 = typename Lighting::vec3;
     Lighting lighting(sources, samplerOf(profile));
     typename Lighting::K kernels;
+    const auto reflectances = Lighting::reflectancesOf(material);
+    typename Lighting::SurfaceParts parts{};
+    parts.diffuse = true;
+    parts.specular = material.kind == MaterialKind::blinnPhong;
+    parts.isOccluded = occlusion != nullptr;
     forEachLaneGroup<Number<T>::lanes>(count, [&](size_t first, int active) {
         const auto vertex = [&](int lane) {
             return begin + first + static_cast<size_t>(lane < active ? lane : active - 1);
@@ -30,17 +35,16 @@ void lightIn(const Profile& profile, const LightSources& sources, const SurfaceM
             for (int i = 0; i < active; i++)
                 to[vertex(i)] = {numberLane(value.x, i), numberLane(value.y, i), numberLane(value.z, i)};
         };
-        const vec3 n = kernels.unit3(load(placed.normals));
-        const vec3 position = load(placed.positions);
-        const vec3 toEye = kernels.unit3(kernels.sub3(Lighting::constant(eye), position));
+        const vec3 normal = load(placed.normals), position = load(placed.positions);
+        const vec3 toEye = kernels.directionToEye(Lighting::constant(eye), position);
         const auto coordinate = [&](int c) {
             return Number<T>::generate(
                 [&](int i) { return placed.mesh->uv_m.empty() ? 0.0 : placed.mesh->uv_m[vertex(i)][c]; });
         };
-        const vec3 surface = lighting.surfaceColour(material, coordinate(0), coordinate(1));
+        const vec3 albedo = kernels.albedoAt(reflectances, coordinate(0), coordinate(1));
         for (size_t side = 0; side < radiance.sides.size(); side++) {
             auto& to = radiance.sides[side];
-            typename Lighting::Surroundings surroundings{T(1.0), n};
+            typename Lighting::Surroundings surroundings{T(1.0), normal};
             if (occlusion) {
                 const std::vector<Occlusion>& of = (*occlusion)[side];
                 const auto bent = [&](int c) {
@@ -50,10 +54,10 @@ void lightIn(const Profile& profile, const LightSources& sources, const SurfaceM
                 surroundings.bentNormal = vec3(bent(0), bent(1), bent(2));
                 for (int i = 0; i < active; i++) to.open[vertex(i)] = numberLane(surroundings.open, i);
             }
-            const auto reflected =
-                lighting.reflected(material, {position, kernels.scale3(n, T(side == 0 ? 1.0 : -1.0)), toEye},
-                                   surface, true, material.kind == MaterialKind::blinnPhong,
-                                   typename Lighting::Unshadowed{}, occlusion ? &surroundings : nullptr);
+            const typename Lighting::SurfacePoint point{
+                position, kernels.seenNormal(normal, T(side == 0 ? 1.0 : -1.0)), toEye};
+            const auto reflected = lighting.reflectedLight(parts, point, reflectances, albedo, surroundings,
+                                                           lighting.lights(), {});
             store(reflected.diffuse, to.diffuse);
             store(reflected.specular, to.specular);
         }

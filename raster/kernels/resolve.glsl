@@ -1,3 +1,9 @@
-// Multisample resolve: the mean of the samples, added in the order of their index.
-real resolveAdd(real sum, real value) { return sum + value; }
-real resolveMean(real sum, real reciprocalCount) { return sum * reciprocalCount; }
+// Multisample resolve.
+// needs: raster/kernels/sample_scope.glsl
+
+// The mean of samples 0 .. count - 1, added in the order of their index.
+real resolvedSamples(SampleBuffer samples, int count, real reciprocalCount) {
+    real sum = sampleAt(samples, 0);
+    for (int s = 1; s < count; s++) sum = sum + sampleAt(samples, s);
+    return sum * reciprocalCount;
+}

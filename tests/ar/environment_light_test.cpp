@@ -46,7 +46,7 @@ void addEnvironmentLight(const Environment& environment, const Profile& profile,
 
 glm::dvec3 irradianceOf(const SurfaceScene& scene, const glm::dvec3& n) {
     EnvironmentLighting<double> lighting(scene.environment.light, {});
-    glm::dvec3 sum = lighting.irradiance(n);
+    glm::dvec3 sum = lighting.environmentIrradiance(n);
     for (const SurfaceLight& light : scene.lights) {
         const double cosine = n.x * light.toLight.x + n.y * light.toLight.y + n.z * light.toLight.z;
         for (int c = 0; c < 3; c++) sum[c] += std::max(0.0, cosine) * light.irradiance[c];
