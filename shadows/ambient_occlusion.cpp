@@ -8,6 +8,7 @@
 #include "numeric/elementary.h"
 #include "numeric/parallel.h"
 #include "numeric/vectors.h"
+#include "shadows/occlusion_kernels.h"
 
 namespace etalon {
 namespace {
@@ -18,21 +19,18 @@ constexpr double kGoldenAngle_rad = 0x1.3331febfa4bfcp+1;
 constexpr size_t kPointsPerTask = 16384;
 constexpr size_t kHemicubesPerTask = 8;
 
+using Kernels = OcclusionKernels<double>;
+
 glm::dvec3 unitOr(const glm::dvec3& v, const glm::dvec3& otherwise) {
-    const double squared = dotOf(v, v);
-    return squared > 0 ? v / std::sqrt(squared) : otherwise;
+    return Kernels().unitOr3(v, otherwise);
 }
 
-// Sums over the directions of a point.
-struct OcclusionSum {
-    double total = 0, covered = 0;
-    glm::dvec3 open{0};
+constexpr Kernels::OcclusionSum kNothing = {0, 0, glm::dvec3(0)};
 
-    Occlusion result(const glm::dvec3& normal) const {
-        if (covered == 0) return {1, normal};
-        return {std::max(0.0, 1 - covered / total), unitOr(open, normal)};
-    }
-};
+Occlusion occlusionOf(Kernels kernels, const Kernels::OcclusionSum& sum, const glm::dvec3& normal) {
+    const Kernels::OpenPart part = kernels.openPart(sum, normal);
+    return {part.open, part.bentNormal};
+}
 
 // Two unit vectors across a unit vector.
 std::array<glm::dvec3, 2> acrossOf(const glm::dvec3& n) {
@@ -91,14 +89,15 @@ class Hemicube {
         const auto [u, v] = acrossOf(point.normal);
         const glm::dvec3& n = point.normal;
         camera_.position = point.position_m + options_.offset_m * n;
-        sum_ = {1, 0, glm::dvec3(0)};
+        sum_ = kNothing;
+        sum_.total = 1;  // the form factors of all texels
         // Right, up and backward are right-handed; up is towards the normal on the sides.
         addFace(top_, weights_.top, v, u, n);
         addFace(side_, weights_.side, -v, n, u);
         addFace(side_, weights_.side, v, n, -u);
         addFace(side_, weights_.side, u, n, v);
         addFace(side_, weights_.side, -u, n, -v);
-        return sum_.result(n);
+        return occlusionOf({}, sum_, n);
     }
 
   private:
@@ -115,30 +114,18 @@ class Hemicube {
         camera_.near_m = isLimited ? options_.maxDistance_m * 0x1p-10 : 1;
         camera_.far_m = HUGE_VAL;
         const View view = cameraView(camera_);
-        const RenderTarget& target = drawer.draw(view, {1, 64, false});
-        for (int y = 0; y < height; y++)
-            for (int x = 0; x < size; x++) {
-                const double weight =
-                    weights[static_cast<size_t>(y) * static_cast<size_t>(size) + static_cast<size_t>(x)];
-                const glm::dvec3 ray = view.forward + (x + 0.5 - view.centreX_px) * view.perX +
-                                       (y + 0.5 - view.centreY_px) * view.perY;
-                const double length = std::sqrt(dotOf(ray, ray));
-                bool isCovered = target.id.at(x, y) != kNoTriangle;
-                if (isCovered && isLimited)
-                    isCovered =
-                        depthFromStored(DepthFormat::d32f, target.depth.at(x, y)) < 1 - 0x1p-10 * length;
-                if (isCovered)
-                    sum_.covered = sum_.covered + weight;
-                else
-                    sum_.open = sum_.open + (weight / length) * ray;
-            }
+        Kernels kernels;
+        kernels.view = &drawer.draw(view, {1, 64, false});
+        kernels.weights = weights;
+        sum_ = kernels.addHemicubeFace(sum_, {view.forward, view.perX, view.perY, view.centreX_px,
+                                              view.centreY_px, size, height, isLimited ? 1 : 0});
     }
 
     const HemicubeOptions& options_;
     const HemicubeWeights& weights_;
     Drawer top_, side_;
     PinholeCamera camera_;
-    OcclusionSum sum_;
+    Kernels::OcclusionSum sum_;
 };
 
 // An orthographic view of a ball along -towards, of radius_m around centre; z from 0 towards the light to 1.
@@ -153,10 +140,6 @@ View ballView(const glm::dvec3& towards, const glm::dvec3& centre, double radius
     view.worldToClip = {row(u, 1 / radius_m, 0), row(v, 1 / radius_m, 0), row(towards, -0.5 / radius_m, 0.5),
                         glm::dvec4(0, 0, 0, 1)};
     return view;
-}
-
-double along(const glm::dvec4& row, const glm::dvec3& p) {
-    return row.x * p.x + (row.y * p.y + (row.z * p.z + row.w));
 }
 
 // A ball around the finite vertices.
@@ -205,8 +188,8 @@ std::vector<OcclusionPoint> occlusionPointsOf(const View& view, const Image<floa
                 points.emplace_back();
                 continue;
             }
-            const glm::dvec3 ray = view.forward + (x + 0.5 - view.centreX_px) * view.perX +
-                                   (y + 0.5 - view.centreY_px) * view.perY;
+            const glm::dvec3 ray = Kernels().rayFromCentre(
+                view.forward, view.perX, view.perY, x + 0.5 - view.centreX_px, y + 0.5 - view.centreY_px);
             points.push_back({view.eye + distance_m * unitOr(ray, view.forward), unitOr(n, glm::dvec3(0))});
         }
     return points;
@@ -266,7 +249,7 @@ std::vector<Occlusion> directionalOcclusion(std::span<const PlacedMesh> placed,
     ETALON_CHECK(options.directions >= 1 && options.mapSize >= 1, "{} directions, maps of {}",
                  options.directions, options.mapSize);
     const Ball ball = ballAround(placed);
-    std::vector<OcclusionSum> sums(points.size());
+    std::vector<Kernels::OcclusionSum> sums(points.size(), kNothing);
     Drawer drawer(placed, options.mapSize, options.mapSize);
     const int size = options.mapSize;
     // A plane within a texel is at most half a diagonal from where the texel's centre shows it.
@@ -275,35 +258,21 @@ std::vector<Occlusion> directionalOcclusion(std::span<const PlacedMesh> placed,
         const glm::dvec3 towards = spiralDirection(k, options.directions);
         // Room for what is moved off the surface.
         const View view = ballView(towards, ball.centre, ball.radius_m * (1 + 2.0 / size), size);
-        const RenderTarget& map = drawer.draw(view, options.raster);
+        const Kernels::ParallelView from = {
+            towards, view.worldToClip[0], view.worldToClip[1], view.worldToClip[2], size, offset_m};
+        Kernels kernels;
+        kernels.view = &drawer.draw(view, options.raster);
         parallelFor(
             (points.size() + kPointsPerTask - 1) / kPointsPerTask, options.raster.threads, [&](size_t task) {
+                Kernels ofTask = kernels;
                 const size_t end = std::min(points.size(), (task + 1) * kPointsPerTask);
-                for (size_t i = task * kPointsPerTask; i < end; i++) {
-                    const double weight = dotOf(points[i].normal, towards);
-                    if (!(weight > 0)) continue;
-                    const glm::dvec3 p = points[i].position_m + offset_m * points[i].normal;
-                    const double x = (along(view.worldToClip[0], p) + 1) * (size / 2.0);
-                    const double y = (1 - along(view.worldToClip[1], p)) * (size / 2.0);
-                    OcclusionSum& sum = sums[i];
-                    sum.total = sum.total + weight;
-                    bool isCovered = false;
-                    if (x >= 0 && x < size && y >= 0 && y < size) {
-                        const auto tx = static_cast<int>(x), ty = static_cast<int>(y);
-                        const double z = along(view.worldToClip[2], p);
-                        const double nearest = depthFromStored(DepthFormat::d32f, map.depth.at(tx, ty));
-                        isCovered = map.id.at(tx, ty) != kNoTriangle && nearest < z;
-                    }
-                    if (isCovered)
-                        sum.covered = sum.covered + weight;
-                    else
-                        sum.open = sum.open + weight * towards;
-                }
+                for (size_t i = task * kPointsPerTask; i < end; i++)
+                    sums[i] = ofTask.addParallelView(sums[i], points[i].position_m, points[i].normal, from);
             });
     }
     std::vector<Occlusion> result(points.size());
     for (size_t i = 0; i < points.size(); i++)
-        if (points[i].normal != glm::dvec3(0)) result[i] = sums[i].result(points[i].normal);
+        if (points[i].normal != glm::dvec3(0)) result[i] = occlusionOf({}, sums[i], points[i].normal);
     return result;
 }
 

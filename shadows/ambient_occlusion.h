@@ -15,7 +15,13 @@
 //     up in each. For vertices and pixels by the thousand. Its error is that of a sum over directions, and of
 //     the texels of the maps, in which a point is looked up at the nearest texel, moved off its surface. The
 //     maps show the outermost surface only, so that no distance limits what covers.
-// Points without occluders have open = 1 exactly. The same bits for any number of threads and tile size.
+// Points without occluders have open = 1 exactly. The same bits for any number of threads and tile size;
+// computed in double, whatever the profile's arithmetic.
+//
+// What occlusion does not do:
+//   - return light: what is covered is dark, whatever covers it;
+//   - take out single lights: it weighs all directions by the cosine, not by what comes from them;
+//   - let part of the light through: a direction is covered or open.
 #pragma once
 
 #include <cmath>

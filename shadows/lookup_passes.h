@@ -19,9 +19,10 @@ class ShadowLookup {
     virtual void find(const LitPoints& points, std::span<double> visibility) const = 0;
 };
 
-// ranges: pcf compares no texel of a window whose texels are all nearer than the point, or all not;
-// everyTexel: it compares each. The same visibility.
-enum class WindowSearch : uint8_t { ranges, everyTexel };
+// How pcf finds the lit texels of its windows with native numbers: side by side, in a faster arrangement
+// (shadows/window_lookup.h), or as the kernel text says, one point per lane. The same visibility to the bit. All
+// other numbers, all other filters and quantised references run the text.
+enum class WindowSearch : uint8_t { sideBySide, text };
 
 struct LookupPasses {
     // fractionBits: of pcf's weights, as in raster/sampler.h.

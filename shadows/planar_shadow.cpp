@@ -14,6 +14,7 @@
 #include "numeric/parallel.h"
 #include "raster/blur.h"
 #include "raster/fragments.h"
+#include "shadows/composition_kernel.h"
 #include "shadows/light_samples.h"
 #include "shadows/planar_passes.h"
 
@@ -294,15 +295,17 @@ PlanarShadow planarShadow(const PlanarReceiver& receiver, const PlanarCasters& c
     PlanarShadow result{counts.grid, {}};
     if (counts.blocked.empty()) return result;
     result.shadow = Image<float>(counts.grid.width, counts.grid.height);
+    CompositionKernel<double> kernel;
     for (size_t i = 0; i < result.shadow.values().size(); i++)
         result.shadow.values()[i] =
-            static_cast<float>(static_cast<double>(counts.blocked.values()[i]) / counts.samples);
+            static_cast<float>(kernel.blockedPart(counts.blocked.values()[i], counts.samples));
     if (options.blurSigma_m == 0) return result;
     const double sigma = options.blurSigma_m / counts.grid.texel_m;
     const int radius = static_cast<int>(std::ceil(kPlanarBlurReach * sigma));
     result.shadow =
         passesIn<BlurPasses>(profile.fragment)->blur(result.shadow, radius, sigma, raster.threads);
-    for (float& value : result.shadow.values()) value = std::min(value, 1.0f);
+    CompositionKernel<float> ofBlurred;
+    for (float& value : result.shadow.values()) value = ofBlurred.limitedShadow(value);
     return result;
 }
 

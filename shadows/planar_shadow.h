@@ -16,6 +16,11 @@
 //     change a bit.
 //  5. shadow = blocked / samples, rounded to float; then the Gaussian blur of raster/blur.h in the profile's
 //     fragment arithmetic, limited to 1. What no sample's shadow reaches is exactly 0.
+//
+// What planar shadows do not do:
+//   - fall on anything but the plane: casters are not shadowed, neither by others nor by themselves;
+//   - let part of the light through: a caster blocks a sample or does not;
+//   - adapt: each texel has the same samples, and the blur is as wide near the caster as far from it.
 #pragma once
 
 #include <cstdint>

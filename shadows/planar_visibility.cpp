@@ -6,6 +6,7 @@
 #include "numeric/check.h"
 #include "numeric/door.h"
 #include "numeric/parallel.h"
+#include "shadows/composition_kernel.h"
 
 namespace etalon {
 namespace {
@@ -45,10 +46,10 @@ Image<float> composeShadows(const PlanarReceiver& receiver, const PlanarGrid& gr
                             const RasterOptions& raster) {
     Image<float> result(grid.width, grid.height);
     if (result.empty()) return result;
-    double total = 0;
+    std::vector<double> shares;
     for (const WeightedShadow& light : lights) {
         ETALON_CHECK(light.irradiance >= 0 && light.irradiance < 0x1p100, "irradiance {}", light.irradiance);
-        total += light.irradiance;
+        shares.push_back(light.irradiance);
     }
     const auto passes = passesIn<PlanarPasses>(profile.fragment);
     const Image<uint8_t> mask = receiverMask(receiver, grid, profile, raster);
@@ -64,16 +65,16 @@ Image<float> composeShadows(const PlanarReceiver& receiver, const PlanarGrid& gr
         }
         std::vector<uint32_t> listed(width);
         std::iota(listed.begin(), listed.end(), 0u);
-        // What is taken away, so that nothing remains exactly 1.
-        std::vector<double> taken(width, 0), visibility(width);
-        for (const WeightedShadow& light : lights) {
-            if (light.shadow->shadow.empty()) continue;
-            passes->visibility(*light.shadow, samplingOf(profile), points, listed, visibility);
-            for (size_t x = 0; x < width; x++) taken[x] += light.irradiance * (1.0 - visibility[x]);
-        }
+        CompositionKernel<double> kernel{shares, std::vector<double>(lights.size() * width, 1.0), width};
+        for (size_t i = 0; i < lights.size(); i++)
+            if (!lights[i].shadow->shadow.empty())
+                passes->visibility(*lights[i].shadow, samplingOf(profile), points, listed,
+                                   std::span(kernel.visibility).subspan(i * width, width));
         for (size_t x = 0; x < width; x++) {
-            const bool lit = mask.at(static_cast<int>(x), y) == 0 || !(total > 0);
-            result.at(static_cast<int>(x), y) = lit ? 1.0f : static_cast<float>(1.0 - taken[x] / total);
+            kernel.texel = x;
+            const bool isOutside = mask.at(static_cast<int>(x), y) == 0;
+            result.at(static_cast<int>(x), y) =
+                isOutside ? 1.0f : static_cast<float>(kernel.remainingLight(static_cast<int>(lights.size())));
         }
     });
     return result;

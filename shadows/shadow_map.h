@@ -11,6 +11,13 @@
 //
 // The faces of a cube have a border of `border` texels around their 90 degrees, so that a filter that crosses
 // an edge stays in the face's own plane and compares with its own depths.
+//
+// What maps do not do:
+//   - split a light's space by the distance from the camera (cascades): a directional light has one layer;
+//   - filter depths (mip levels, moments): only comparisons are filtered;
+//   - let part of the light through: a caster blocks a texel or does not;
+//   - know the light's size, but in the filter soft, which takes it from the mean of what it finds: one blocker
+//     behind another, and a border that the map does not see, are not told apart.
 #pragma once
 
 #include <array>

@@ -1,4 +1,10 @@
 // Shadows of a view by shadow volumes: the volumes are counted in the stencil, pixel by pixel.
+//
+// What they do not do:
+//   - soft borders: a light is a place or a direction without extent;
+//   - points that the view does not show, those in mirrors among them: they have the mask of their pixel;
+//   - keep to one side of an open mesh: without a closed surface every triangle casts, whichever way it faces;
+//   - let part of the light through: a triangle blocks it.
 #pragma once
 
 #include <optional>

@@ -4,8 +4,10 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "numeric/check.h"
+#include "numeric/vectors.h"
 
 using namespace etalon;
 
@@ -107,5 +109,39 @@ TEST_CASE("SamplesOfASphericalPatchHaveItsRadiusAndAngles") {
             smallestCosine = std::min(smallestCosine, cosine);
         }
         CHECK(smallestCosine < std::cos(0.29));
+    }
+}
+
+// 400 samples are 20 x 20 cells, so that each quarter of the longitudes has as many, and each half of the
+// latitudes' sines.
+TEST_CASE("SamplesOfASphericalPatchFillItsLongitudesAndLatitudesEvenly") {
+    SphericalPatch patch;
+    patch.radius_m = std::numeric_limits<double>::infinity();
+    patch.direction = {0, 0, 1};
+    for (const auto& [halfLongitude_rad, halfLatitude_rad] :
+         {std::pair(0.3, 0.1), std::pair(1.0, 0.7), std::pair(kPi, kPi / 2)}) {
+        patch.halfLongitude_rad = halfLongitude_rad;
+        patch.halfLatitude_rad = halfLatitude_rad;
+        int inQuarter[4] = {}, above = 0;
+        glm::dvec3 mean(0);
+        for (const glm::dvec4& light : lightSamples(patch, 400, 2)) {
+            const double longitude_rad = std::atan2(light.x, light.z);
+            const int quarter = static_cast<int>((longitude_rad / halfLongitude_rad + 1) * 2);
+            REQUIRE(quarter >= 0);
+            REQUIRE(quarter < 4);
+            inQuarter[quarter]++;
+            above += light.y > 0 ? 1 : 0;
+            for (int c = 0; c < 3; c++) mean[c] += light[c] / 400;
+        }
+        CAPTURE(halfLongitude_rad);
+        for (const int count : inQuarter) CHECK(count == 100);
+        CHECK(above == 200);
+        // Across the middle the directions cancel, to a twentieth of a cell's extent; along it their mean is the
+        // integral of cos(latitude) cos(longitude).
+        CHECK(std::abs(mean.x) < 0.05 * 2 * halfLongitude_rad / 20);
+        CHECK(std::abs(mean.y) < 0.05 * 2 * std::sin(halfLatitude_rad) / 20);
+        const double s = std::sin(halfLatitude_rad);
+        const double meanCosLatitude = 0.5 * (std::sqrt(1 - s * s) + std::asin(s) / s);
+        CHECK(std::abs(mean.z - meanCosLatitude * std::sin(halfLongitude_rad) / halfLongitude_rad) < 2e-3);
     }
 }

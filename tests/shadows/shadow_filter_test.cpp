@@ -2,11 +2,13 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <bit>
 #include <set>
 
 #include "numeric/door.h"
 #include "numeric/isa.h"
 #include "numeric/random.h"
+#include "raster/depth.h"
 #include "shadows/shadow_pattern.h"
 #include "tests/shadows/shadow_scene.h"
 
@@ -31,11 +33,15 @@ SurfaceScene confetti() {
 
 // pcf by its definition in double: taps^2 bilinear samples, each of four comparisons.
 double windowByDefinition(const ShadowMap& map, double u, double v, double depth, int taps) {
+    const double levels = depthLevels(map.format());
+    const bool isQuantised = map.settings.reference == ShadowReference::quantised;
     const auto isLit = [&](double x, double y) {
         const int i = static_cast<int>(std::floor(x)), j = static_cast<int>(std::floor(y)),
                   w = map.projection.width;
         if (i < 0 || j < 0 || i >= w || j >= w) return 1.0;
-        return depthFromStored(map.format(), map.layers[0].stored.at(i, j)) < depth ? 0.0 : 1.0;
+        const uint32_t stored = map.layers[0].stored.at(i, j);
+        if (isQuantised) return stored < std::floor(std::clamp(depth, 0.0, 1.0) * levels + 0.5) ? 0.0 : 1.0;
+        return depthFromStored(map.format(), stored) < depth ? 0.0 : 1.0;
     };
     double sum = 0;
     for (int j = 0; j < taps; j++)
@@ -48,42 +54,70 @@ double windowByDefinition(const ShadowMap& map, double u, double v, double depth
     return sum / (taps * taps);
 }
 
+// What is nearer, farther or near to what was drawn, in rectangles and texel by texel.
+void addNoise(ShadowMap& map, Random& random) {
+    const bool isDistance = map.holdsDistance();
+    for (ShadowLayer& layer : map.layers) {
+        const int width = map.projection.width;
+        if (layer.stored.empty() && layer.distance_m.empty()) continue;
+        for (int k = 0; k < 30; k++) {
+            const int x0 = random.integer(0, width - 1), y0 = random.integer(0, width - 1),
+                      x1 = std::min(width, x0 + random.integer(1, 24)),
+                      y1 = std::min(width, y0 + random.integer(1, 24));
+            const double nearest = random.uniform(0, 1), spread = random.chance(0.5) ? 0 : 0.3;
+            for (int y = y0; y < y1; y++)
+                for (int x = x0; x < x1; x++) {
+                    const double z = std::min(1.0, nearest + spread * random.uniform(0, 1));
+                    if (isDistance)
+                        layer.distance_m.at(x, y) = static_cast<float>(4 * z);
+                    else if (map.format() == DepthFormat::d32f)
+                        layer.stored.at(x, y) = std::bit_cast<uint32_t>(static_cast<float>(z));
+                    else
+                        layer.stored.at(x, y) = static_cast<uint32_t>(z * depthLevels(map.format()));
+                }
+        }
+    }
+}
+
 }  // namespace
 
 TEST_CASE("PercentageCloserFilteringComparesFirstAndWeightsAfter") {
     const SurfaceScene scene = confetti();
     const SurfaceLight light = sun({0.4, 1, 0.3});
     const LitPoints points = gridOn(0, -2, 2, 40);
-    for (const int taps : {1, 2, 3, 4, 7, 16}) {
-        MapRequest request;
-        request.profile = "f64";
-        request.settings.size = 100;
-        request.settings.taps = taps;
-        const ShadowMap map = mapOf(scene, light, request);
-        const std::vector<double> visibility = lookUp(map, points, "f64");
-        const ShadowProjection& p = map.projection;
-        double worst = 0;
-        std::set<double> values;
-        for (size_t i = 0; i < points.size(); i++) {
-            const glm::dvec3 d =
-                glm::dvec3(points.position_m[0][i], points.position_m[1][i], points.position_m[2][i]) -
-                p.origin;
-            const auto along = [&](const glm::dvec3& a) { return a.x * d.x + (a.y * d.y + a.z * d.z); };
-            const double expected = windowByDefinition(map, p.centreU + p.scale * along(p.right),
-                                                       p.centreV + p.scale * along(p.down),
-                                                       p.depthOffset + p.depthScale * along(p.forward), taps);
-            worst = std::max(worst, std::fabs(visibility[i] - expected));
-            values.insert(visibility[i]);
+    for (const ShadowReference reference : {ShadowReference::clamped, ShadowReference::quantised})
+        for (const int taps : {1, 2, 3, 4, 7, 16}) {
+            MapRequest request;
+            request.profile = "f64";
+            request.settings.size = 100;
+            request.settings.taps = taps;
+            request.settings.reference = reference;
+            const ShadowMap map = mapOf(scene, light, request);
+            const std::vector<double> visibility = lookUp(map, points, "f64");
+            const ShadowProjection& p = map.projection;
+            double worst = 0;
+            std::set<double> values;
+            for (size_t i = 0; i < points.size(); i++) {
+                const glm::dvec3 d =
+                    glm::dvec3(points.position_m[0][i], points.position_m[1][i], points.position_m[2][i]) -
+                    p.origin;
+                const auto along = [&](const glm::dvec3& a) { return a.x * d.x + (a.y * d.y + a.z * d.z); };
+                const double expected = windowByDefinition(
+                    map, p.centreU + p.scale * along(p.right), p.centreV + p.scale * along(p.down),
+                    p.depthOffset + p.depthScale * along(p.forward), taps);
+                worst = std::max(worst, std::fabs(visibility[i] - expected));
+                values.insert(visibility[i]);
+            }
+            CAPTURE(taps);
+            CHECK(worst < 1e-12);
+            CHECK(values.size() > 20);
         }
-        CAPTURE(taps);
-        CHECK(worst < 1e-12);
-        CHECK(values.size() > 20);
-    }
 }
 
-// Points on and off the ground, some at places or with normals that are not numbers, in every profile and
-// kind of map.
-TEST_CASE("RangesOfTexelsDecideWindowsToTheBit") {
+// Native numbers compare the texels of a window side by side, or not at all where the range of their depths
+// decides; the text compares one after the other. Points on and off the ground, some at places or with normals
+// that are not numbers, in all formats, with every bias.
+TEST_CASE("WindowsSideBySideGiveTheBitsOfTheText") {
     const SurfaceScene scene = confetti();
     LitPoints points = gridOn(0, -3, 3, 50);
     Random random(5);
@@ -95,31 +129,35 @@ TEST_CASE("RangesOfTexelsDecideWindowsToTheBit") {
         if (random.chance(0.05))
             points.faceNormal[static_cast<size_t>(random.integer(0, 2))][i] =
                 random.pick({double(NAN), double(INFINITY), 0.0, 1e-30});
+        if (random.chance(0.02)) points.instance[i] = kNoInstance;
     }
-    SurfaceLight lamp;
-    lamp.kind = LightKind::point;
-    lamp.position_m = {0.3, 2, 0.2};
-    lamp.intensity = glm::dvec3(1);
-    for (const std::string_view profile : profileNames())
-        for (const SurfaceLight& light : {sun({0.4, 1, 0.3}), lamp})
-            for (const ShadowDepth depth : {ShadowDepth::d16, ShadowDepth::d32f, ShadowDepth::linear})
-                for (const int taps : {1, 4, 7}) {
+    for (const char* profile : {"f32", "f64", "vulkan-min"})
+        for (const SurfaceLight& light :
+             {sun({0.4, 1, 0.3}), bulb({0.3, 2, 0.2}), torch({0.3, 2, 0.2}, {0, -1, 0}, 0.7)})
+            for (const ShadowDepth depth :
+                 {ShadowDepth::d16, ShadowDepth::d24, ShadowDepth::d32f, ShadowDepth::linear})
+                for (const int taps : {1, 4, 7, 8, 16}) {
                     MapRequest request;
-                    const std::string name(profile);
-                    request.profile = name.c_str();
+                    request.profile = profile;
                     request.settings.size = 64;
                     request.settings.depth = depth;
                     request.settings.taps = taps;
-                    request.settings.receiverPlane = taps != 1;
-                    const ShadowMap map = mapOf(scene, light, request);
+                    request.settings.receiverPlane = random.chance(0.5);
+                    if (random.chance(0.5))
+                        request.settings.bias = {random.uniform(0, 8), random.uniform(0, 3), 0};
+                    if (random.chance(0.5)) request.settings.depthOffset = random.uniform(0, 0.02);
+                    if (random.chance(0.5)) request.settings.normalOffset_texels = random.uniform(0, 2);
+                    ShadowMap map = mapOf(scene, light, request);
+                    if (random.chance(0.7)) addNoise(map, random);
                     size_t partly = 0, different = 0;
-                    const auto expected = lookUp(map, points, request.profile, WindowSearch::everyTexel),
-                               actual = lookUp(map, points, request.profile);
+                    const auto expected = lookUp(map, points, profile, WindowSearch::text),
+                               actual = lookUp(map, points, profile);
                     for (size_t i = 0; i < points.size(); i++) {
                         different += actual[i] != expected[i];
                         partly += expected[i] > 0 && expected[i] < 1;
                     }
-                    CAPTURE(name);
+                    CAPTURE(profile);
+                    CAPTURE(static_cast<int>(depth));
                     CAPTURE(taps);
                     CHECK(different == 0);
                     CHECK(partly > 0);
@@ -301,7 +339,7 @@ TEST_CASE("ShadowThreadsAndLevelsChangeNoBit") {
                                             {threads, threads == 1 ? 64 : 16, false});
                         std::vector<double> visibility(points.size());
                         passesIn<LookupPasses>(profile.fragment)
-                            ->makeLookup(map, 8, threads, WindowSearch::ranges)
+                            ->makeLookup(map, 8, threads, WindowSearch::sideBySide)
                             ->find(points, visibility);
                         all.push_back(visibility);
                     }

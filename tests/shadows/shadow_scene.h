@@ -74,7 +74,7 @@ struct MapRequest {
 
 inline std::vector<double> lookUp(const ShadowMap& map, const LitPoints& points,
                                   const char* profileName = "f32",
-                                  WindowSearch search = WindowSearch::ranges) {
+                                  WindowSearch search = WindowSearch::sideBySide) {
     const Profile& profile = *findProfile(profileName);
     std::vector<double> visibility(points.size());
     passesIn<LookupPasses>(profile.fragment)
