@@ -5,8 +5,10 @@
 #include <array>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <vector>
 
+#include "lighting/environment_irradiance.h"
 #include "lighting/shading_kernels.h"
 #include "lighting/shading_passes.h"
 #include "lighting/surface_lighting.h"
@@ -79,7 +81,7 @@ class TileShaderOf final : public TileShader {
     void sortIntoBuckets();
     Group groupOf(const Bucket& bucket, size_t first, int count) const;
     struct Parts {
-        bool ambient, diffuse, specular, mirror, distance, needNormal, needEye, needPlace;
+        bool ambient, diffuse, specular, mirror, distance, seen, needNormal, needEye, needPlace;
     };
     Parts partsOf(const SurfaceMaterial& material) const;
     static void setItems(const Group& group);
@@ -96,7 +98,13 @@ class TileShaderOf final : public TileShader {
     vec3 albedo(const SurfaceMaterial& material, const Weights& w, const Group& group);
     vec3 sampleEnvironment(vec3 direction);
     vec3 mirrorRadiance(const Bucket& bucket, vec3 n, vec3 toEye);
+    bool wantsSeen() const;
+    template <class Reaching>
+    void putSeen(const SurfaceMaterial& material, const Group& group, const Surface& surface,
+                 const Reaching& shadows);
+    typename Lighting::Surroundings fragmentSurroundings(const Group& group) const;
     void put(ShadeOutput output, const Group& group, vec3 value);
+    void putNumber(Stored* to, const Group& group, const T& value);
     void resolve(ShadeOutput output, const PixelRectangle& rectangle, Image<float>& image);
     void copyFirstSample(ShadeOutput output, const PixelRectangle& rectangle, Image<float>& image);
     // The values of a channel, one per fragment.
@@ -108,7 +116,9 @@ class TileShaderOf final : public TileShader {
     K kernels_;
     Lighting lighting_;
     SamplerSettings sampler_;
-    vec3 ambient_, eye_;
+    vec3 ambient_, eye_, forward_;
+    // Where an image shows what the environment gives.
+    std::optional<EnvironmentIrradiance<T>> environment_;
     std::vector<bool> casts_;    // for each light whether its visibility is asked for; empty: for none
     bool hasOcclusion_ = false;  // else all is open
     const std::vector<Occlusion>* occlusion_ = nullptr;  // of the tile's fragments, where these have it
@@ -131,18 +141,29 @@ TileShaderOf<T>::TileShaderOf(const ShadeJob& job)
     : job_(job), lighting_(job.sources, samplerOf(*job.profile)), sampler_(samplerOf(*job.profile)) {
     ambient_ = constant(job.scene->ambient);
     eye_ = constant(job.view->eye);
+    forward_ = constant(job.view->forward);
     buckets_.push_back(Bucket{nullptr, nullptr, kNoTriangle, {}, 0});
-    hasOcclusion_ = job.occlusion || (job.vertexRadiance &&
-                                      std::ranges::any_of(*job.vertexRadiance, [](const VertexRadiance& of) {
-                                          return !of.sides[0].open.empty();
-                                      }));
+    hasOcclusion_ =
+        job.vertexRadiance
+            ? std::ranges::any_of(*job.vertexRadiance,
+                                  [](const VertexRadiance& of) { return !of.sides[0].open.empty(); })
+            : job.occlusion != nullptr;
     const ShadeRequest& request = job.request;
-    if (!job.visibility || job.vertexRadiance ||
-        !(request.needs(ShadeOutput::diffuse) || request.needs(ShadeOutput::specular)))
-        return;
     const LightSources& sources = job.sources;
-    for (size_t l = 0; l < sources.lights->size(); l++)
-        casts_.push_back((!sources.shows || (*sources.shows)[l]) && job.visibility->casts(l));
+    const bool hasEnvironment = request[ShadeOutput::irradiance] || request[ShadeOutput::environment];
+    if (hasEnvironment)
+        environment_.emplace(*sources.environment, *sources.lights, job.environmentLights, sampler_);
+    if (!job.visibility) return;
+    // Whose visibility something asks for.
+    const bool isLit =
+        !job.vertexRadiance && (request.needs(ShadeOutput::diffuse) || request.needs(ShadeOutput::specular));
+    casts_.assign(sources.lights->size(), false);
+    for (size_t l = 0; l < casts_.size(); l++) casts_[l] = isLit && (!sources.shows || (*sources.shows)[l]);
+    if (request[ShadeOutput::shadows])
+        for (const size_t l : job.shadowLights) casts_[l] = true;
+    if (hasEnvironment)
+        for (const size_t l : job.environmentLights) casts_[l] = true;
+    for (size_t l = 0; l < casts_.size(); l++) casts_[l] = casts_[l] && job.visibility->casts(l);
     if (std::find(casts_.begin(), casts_.end(), true) == casts_.end()) casts_.clear();
 }
 
@@ -175,7 +196,9 @@ void TileShaderOf<T>::run(size_t number, const PixelRectangle& rectangle, Shaded
     collect(rectangle, !casts_.empty());
     occlusion_ = job_.occlusion ? &(*job_.occlusion)[number] : nullptr;
     for (size_t o = 0; o < kShadeOutputs; o++)
-        if (job_.request.wanted[o]) values_[o].assign(3 * tile_.size(), Stored(0));
+        if (job_.request.wanted[o])
+            values_[o].assign(std::max(3, channelsOf(job_, static_cast<ShadeOutput>(o))) * tile_.size(),
+                              Stored(0));
     for (size_t b = 0; b < buckets_.size(); b++) {
         const std::vector<uint32_t>& list = buckets_[b].fragments;
         if (b > 0 && !casts_.empty())
@@ -189,8 +212,8 @@ void TileShaderOf<T>::run(size_t number, const PixelRectangle& rectangle, Shaded
         (b == 0 ? statistics.backgroundFragments : statistics.surfaceFragments) += list.size();
     }
     for (size_t o = 0; o < kShadeOutputs; o++) {
-        if (!job_.request.wanted[o]) continue;
-        if (o <= static_cast<size_t>(ShadeOutput::beauty) && job_.target->format.samples > 1)
+        if (images.images[o].empty()) continue;
+        if (isResolved(static_cast<ShadeOutput>(o)) && job_.target->format.samples > 1)
             resolve(static_cast<ShadeOutput>(o), rectangle, images.images[o]);
         else
             copyFirstSample(static_cast<ShadeOutput>(o), rectangle, images.images[o]);
@@ -347,6 +370,12 @@ template <class T>
 typename TileShaderOf<T>::Lighting::Surroundings TileShaderOf<T>::surroundingsOf(const Weights& w,
                                                                                  const Group& group) const {
     if (job_.vertexRadiance) return {triangles_.open(w, group.lanes), constant(glm::dvec3(0))};
+    return fragmentSurroundings(group);
+}
+// What occlusion_ has of them.
+template <class T>
+typename TileShaderOf<T>::Lighting::Surroundings TileShaderOf<T>::fragmentSurroundings(
+    const Group& group) const {
     const auto load = [&](const auto& valueOf) {
         return Number<T>::generate([&](int i) {
             const size_t last = group.fragments.size() - 1;
@@ -380,7 +409,13 @@ void TileShaderOf<T>::setPoints(const Group& group, const Surface& surface, size
 // The environment in the direction of the pixel's centre.
 template <class T>
 void TileShaderOf<T>::shadeBackground(const Group& group) {
-    put(ShadeOutput::distance, group, constant(glm::dvec3(std::numeric_limits<double>::infinity())));
+    const vec3 infinity = constant(glm::dvec3(std::numeric_limits<double>::infinity()));
+    put(ShadeOutput::distance, group, infinity);
+    put(ShadeOutput::depth, group, infinity);
+    put(ShadeOutput::open, group, constant(glm::dvec3(1)));
+    if (job_.request[ShadeOutput::shadows])
+        for (size_t c = 0; c < job_.shadowLights.size(); c++)
+            putNumber(values(ShadeOutput::shadows, static_cast<int>(c)), group, T(1.0));
     if (!job_.request.needs(ShadeOutput::background)) return;
     const SurfaceEnvironment& environment = *job_.environment;
     if (environment.latLong.empty()) {
@@ -424,8 +459,10 @@ typename TileShaderOf<T>::Parts TileShaderOf<T>::partsOf(const SurfaceMaterial& 
                      lighting_.hasSpecular() && request.needs(ShadeOutput::specular);
     parts.mirror =
         (every ? hasMirrorPart(material) : mirrors(material)) && request.needs(ShadeOutput::mirror);
-    parts.distance = request[ShadeOutput::distance];
-    parts.needNormal = parts.diffuse || parts.specular || parts.mirror || request[ShadeOutput::normals];
+    parts.distance = request[ShadeOutput::distance] || request[ShadeOutput::depth];
+    parts.seen = wantsSeen();
+    parts.needNormal =
+        parts.diffuse || parts.specular || parts.mirror || parts.seen || request[ShadeOutput::normals];
     parts.needEye = parts.specular || parts.mirror || parts.distance;
     parts.needPlace = parts.diffuse && lighting_.hasPlaces();
     return parts;
@@ -436,16 +473,21 @@ template <class Reaching>
 void TileShaderOf<T>::shadeSurface(const Bucket& bucket, const Group& group, const Surface& interpolated,
                                    const Reaching& shadows) {
     const SurfaceMaterial& material = *bucket.material;
-    const auto [ambient, diffuse, specular, mirror, distance, needNormal, needEye, needPlace] =
+    const auto [ambient, diffuse, specular, mirror, distance, seen, needNormal, needEye, needPlace] =
         partsOf(material);
     const vec3 n = interpolated.normal;
     vec3 toEye = constant(glm::dvec3(0));
     if (needNormal) put(ShadeOutput::normals, group, n);
     if (needEye) {
         toEye = kernels_.sub3(eye_, interpolated.position);
-        if (distance) put(ShadeOutput::distance, group, vec3(kernels_.length3(toEye), T(0.0), T(0.0)));
+        if (distance) {
+            const T depth = kernels_.viewDepth(interpolated.position, eye_, forward_);
+            put(ShadeOutput::distance, group, vec3(kernels_.length3(toEye), T(0.0), T(0.0)));
+            put(ShadeOutput::depth, group, vec3(depth, T(0.0), T(0.0)));
+        }
         toEye = kernels_.unit3(toEye);
     }
+    if (seen) putSeen(material, group, interpolated, shadows);
 
     // Radiance, each component in its own sum over the lights.
     vec3 sum = constant(glm::dvec3(0));
@@ -498,21 +540,57 @@ typename TileShaderOf<T>::vec3 TileShaderOf<T>::mirrorRadiance(const Bucket& buc
                          kernels_.sampleCubeRgb(texture, direction, sampling));
 }
 
+template <class T>
+bool TileShaderOf<T>::wantsSeen() const {
+    const ShadeRequest& request = job_.request;
+    return request[ShadeOutput::open] || request[ShadeOutput::bentNormals] ||
+           request[ShadeOutput::irradiance] || request[ShadeOutput::environment] ||
+           request[ShadeOutput::shadows];
+}
+
+// What reaches a group's fragments, for the images that show it: of lights, of their surroundings, of the
+// environment.
+template <class T>
+template <class Reaching>
+void TileShaderOf<T>::putSeen(const SurfaceMaterial& material, const Group& group, const Surface& surface,
+                              const Reaching& shadows) {
+    // Shadows are made for surfaces that reflect lights.
+    const bool hasShadows = reflectsDiffusely(material) || reflectsSpecularly(material);
+    const auto reaching = [&](size_t light) {
+        return hasShadows && shadows.casts(light) ? shadows.visibility(light) : T(1.0);
+    };
+    if (job_.request[ShadeOutput::shadows])
+        for (size_t c = 0; c < job_.shadowLights.size(); c++)
+            putNumber(values(ShadeOutput::shadows, static_cast<int>(c)), group,
+                      reaching(job_.shadowLights[c]));
+    typename Lighting::Surroundings around{T(1.0), surface.normal};
+    if (occlusion_) around = fragmentSurroundings(group);
+    put(ShadeOutput::open, group, vec3(around.open, T(0.0), T(0.0)));
+    put(ShadeOutput::bentNormals, group, around.bentNormal);
+    if (!environment_) return;
+    const vec3 irradiance = environment_->at(surface.normal, around.open, around.bentNormal, reaching);
+    put(ShadeOutput::irradiance, group, irradiance);
+    if (hasDiffusePart(material))
+        put(ShadeOutput::environment, group,
+            kernels_.lambertOfIrradiance(irradiance, albedo(material, surface.w, group)));
+}
+
 // Keeps the group's values if the output is wanted.
 template <class T>
 void TileShaderOf<T>::put(ShadeOutput output, const Group& group, vec3 v) {
     if (!job_.request[output]) return;
-    const auto active = static_cast<int>(group.fragments.size());
-    for (int c = 0; c < 3; c++) {
-        Stored* to = values(output, c);
-        if (group.isRun()) {
-            Number<T>::store(v[c], to + group.fragments.front(), active);
-            continue;
-        }
-        std::array<Stored, N> lanes;
-        Number<T>::store(v[c], lanes.data(), N);
-        for (size_t i = 0; i < group.fragments.size(); i++) to[group.fragments[i]] = lanes[i];
+    for (int c = 0; c < 3; c++) putNumber(values(output, c), group, v[c]);
+}
+// Keeps the group's values of a channel.
+template <class T>
+void TileShaderOf<T>::putNumber(Stored* to, const Group& group, const T& value) {
+    if (group.isRun()) {
+        Number<T>::store(value, to + group.fragments.front(), static_cast<int>(group.fragments.size()));
+        return;
     }
+    std::array<Stored, N> lanes;
+    Number<T>::store(value, lanes.data(), N);
+    for (size_t i = 0; i < group.fragments.size(); i++) to[group.fragments[i]] = lanes[i];
 }
 
 // Means over the samples of each pixel, a row of the rectangle at a time.
@@ -527,7 +605,7 @@ void TileShaderOf<T>::resolve(ShadeOutput output, const PixelRectangle& rectangl
             setItemsOf<T, N>([&](int i) {
                 return itemOfPlace(rectangle.x0 + static_cast<int>(first) + i, rectangle.y0 + row);
             });
-            for (int c = 0; c < 3; c++) {
+            for (int c = 0; c < image.channels(); c++) {
                 const Stored* from = values(output, c);
                 const auto sample = [&](size_t s) {
                     return Number<T>::generate([&](int i) {

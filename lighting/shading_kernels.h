@@ -25,6 +25,7 @@ struct ShadingKernels {
 #include "lighting/kernels/mirror.glsl"
 #include "lighting/kernels/positional_light.glsl"
 #include "lighting/kernels/rotate_y.glsl"
+#include "lighting/kernels/view_depth.glsl"
 };
 
 }  // namespace etalon
