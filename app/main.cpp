@@ -28,6 +28,8 @@ int main(int argc, char** argv) {
     etalon::addRender(command);
     etalon::addPlan(command);
     etalon::addProfiles(command);
+    etalon::addOutputs(command);
+    etalon::addSchema(command);
     etalon::addProbe(command);
     etalon::addCompare(command);
     etalon::addCheck(command, golden);

@@ -14,8 +14,6 @@
 namespace etalon {
 namespace {
 
-constexpr std::string_view kResamplings[] = {"nearest", "bilinear", "area"};
-
 struct ProbeConvertVerb {
     ProbeInput input;
     std::string output, to, toLayout = "openexr", resampling = "bilinear", profile = "f32";
@@ -35,7 +33,7 @@ int widthAcross(const ProbeShape& source, Mapping to) {
 
 ProbeShape shapeOf(const ProbeConvertVerb& verb, const Probe& source) {
     ProbeShape shape;
-    shape.mapping = memberOfName<Mapping>(kMappingNames, verb.to);
+    shape.mapping = *memberOf<Mapping>(verb.to);
     shape.width = verb.width > 0 ? verb.width : widthAcross(source.shape, shape.mapping);
     shape.height = isLatLong(shape.mapping) ? std::max(1, shape.width / 2) : shape.width;
     if (verb.height > 0) shape.height = verb.height;
@@ -53,7 +51,7 @@ ExitCode runProbeConvert(const ProbeConvertVerb& verb) {
     const Probe source = verb.input.load();
     ProbeConversion conversion;
     conversion.shape = shapeOf(verb, source);
-    conversion.resampling = memberOfName<Resampling>(kResamplings, verb.resampling);
+    conversion.resampling = *memberOf<Resampling>(verb.resampling);
     conversion.samplesPerAxis = verb.samples;
     const Profile profile = loadProfile(verb.profile);
     conversion.fractionBits = profile.textureFractionBits;
@@ -66,8 +64,7 @@ ExitCode runProbeConvert(const ProbeConvertVerb& verb) {
             conversion.rotation[c][r] =
                 from[0][r] * aboutY[c][0] + (from[1][r] * aboutY[c][1] + from[2][r] * aboutY[c][2]);
     const Probe result = convertProbe(source, conversion, profile.fragment, verb.threads);
-    file.write(
-        encodeExr(frameOfProbe(result, memberOfName<CubeLayout>(kLayoutNames, verb.toLayout)), verb.threads));
+    file.write(encodeExr(frameOfProbe(result, *memberOf<CubeLayout>(verb.toLayout)), verb.threads));
     file.commit();
     return ExitCode::done;
 }
@@ -79,16 +76,17 @@ void addProbeConvert(Verb& probe) {
     Verb& verb = probe.addVerb("convert", "Convert a probe to another mapping, size or orientation");
     options->input.addTo(verb);
     verb.add("-o,--output", options->output, "EXR file to write").required();
-    verb.add("--to", options->to, "Mapping of the result").required().oneOf(kMappingNames);
+    verb.add("--to", options->to, "Mapping of the result").required().oneOf(kNames<Mapping>);
     verb.add("--width", options->width, "Texels across an image (a cube's face); default: as in the source")
         .range(1, kMaxImageSize);
     verb.add("--height", options->height, "Texels down a lat-long image; default: half the width")
         .range(1, kMaxImageSize);
-    verb.add("--to-layout", options->toLayout, "How the faces of a cube are laid out").oneOf(kLayoutNames);
+    verb.add("--to-layout", options->toLayout, "How the faces of a cube are laid out")
+        .oneOf(kNames<CubeLayout>);
     verb.add("--to-ball-distance", options->toBallDistance_radii, "Of a mirror ball, in radii")
         .range(kLeastBallDistance_radii, std::numeric_limits<double>::infinity());
     verb.add("--resample", options->resampling, "How texels are computed; area keeps energy")
-        .oneOf(kResamplings);
+        .oneOf(kNames<Resampling>);
     verb.add("--samples", options->samples, "Of area: samples per axis and texel")
         .range(1, kMaxSamplesPerAxis);
     verb.add("--rotate-y-deg", options->rotation_deg,

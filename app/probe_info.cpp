@@ -8,6 +8,7 @@
 #include "numeric/text.h"
 #include "probes/irradiance.h"
 #include "probes/probe_statistics.h"
+#include "raster/names.h"
 
 namespace etalon {
 namespace {
@@ -23,15 +24,13 @@ Json jsonOf(const glm::dvec3& v) {
 }
 std::string textOf(const glm::dvec3& v) { return formatText("{:.6g} {:.6g} {:.6g}", v.x, v.y, v.z); }
 
-constexpr const char* kAxisNames[] = {"+x", "-x", "+y", "-y", "+z", "-z"};
-
 ExitCode runProbeInfo(const ProbeInfoVerb& verb) {
     const Probe probe = verb.input.load();
     const ProbeStatistics s = statisticsOf(probe, verb.threads);
     const std::vector<glm::dvec3> axes = {{1, 0, 0},  {-1, 0, 0}, {0, 1, 0},
                                           {0, -1, 0}, {0, 0, 1},  {0, 0, -1}};
     const auto irradiance = irradianceAt(probe, axes, Arithmetic::fp64, verb.threads);
-    const std::string mapping = kMappingNames[static_cast<size_t>(probe.shape.mapping)];
+    const std::string_view mapping = nameOf(probe.shape.mapping);
     if (verb.json) {
         Json json = {{"file", verb.input.file},
                      {"mapping", mapping},
@@ -49,7 +48,8 @@ ExitCode runProbeInfo(const ProbeInfoVerb& verb) {
         json["negative"] = s.negative;
         json["infinite"] = s.infinite;
         json["nan"] = s.notANumber;
-        for (size_t i = 0; i < axes.size(); i++) json["irradiance"][kAxisNames[i]] = jsonOf(irradiance[i]);
+        for (size_t i = 0; i < axes.size(); i++)
+            json["irradiance"][nameOf(static_cast<CubeFace>(i))] = jsonOf(irradiance[i]);
         printOut(jsonText(json));
         return ExitCode::done;
     }
@@ -63,7 +63,7 @@ ExitCode runProbeInfo(const ProbeInfoVerb& verb) {
     text +=
         formatText("no radiance    {} negative, {} infinite, {} NaN\n", s.negative, s.infinite, s.notANumber);
     for (size_t i = 0; i < axes.size(); i++)
-        text += formatText("irradiance {}  {}\n", kAxisNames[i], textOf(irradiance[i]));
+        text += formatText("irradiance {}  {}\n", nameOf(static_cast<CubeFace>(i)), textOf(irradiance[i]));
     printOut(text);
     return ExitCode::done;
 }

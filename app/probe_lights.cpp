@@ -24,9 +24,6 @@ struct ProbeLightsVerb {
 };
 
 constexpr std::string_view kMethods[] = {"median-cut", "dominant"};
-constexpr std::string_view kCuts[] = {"angle", "arc"};                                         // LongerSide
-constexpr std::string_view kPositions[] = {"centre", "centroid", "median", "centroid-twice"};  // LightPlace
-constexpr std::string_view kWeights[] = {"exact", "midpoint", "edge", "uniform"};              // TexelWeight
 
 Json jsonOf(const glm::dvec3& v) { return Json::list({v.x, v.y, v.z}); }
 
@@ -64,7 +61,7 @@ ExitCode runProbeLights(const ProbeLightsVerb& verb) {
     const Probe probe = verb.input.load();
     if (isMedianCut && probe.shape.mapping != Mapping::latLong)
         throw InputError(formatText("{}: a {} probe; median cut needs a lat-long one", verb.input.file,
-                                    kMappingNames[static_cast<size_t>(probe.shape.mapping)]));
+                                    nameOf(probe.shape.mapping)));
     if (!isMedianCut && probe.shape.mapping == Mapping::cube)
         throw InputError(
             formatText("{}: a cube map; dominant lights are searched in one image", verb.input.file));
@@ -74,9 +71,9 @@ ExitCode runProbeLights(const ProbeLightsVerb& verb) {
     std::string text = "# direction (towards the light), energy R G B (W/m^2), solid angle (sr), texels\n";
     if (isMedianCut) {
         const MedianCut cut = {.log2Count = verb.countIsGiven ? std::countr_zero(verb.count) : verb.log2Count,
-                               .side = memberOfName<LongerSide>(kCuts, verb.cut),
-                               .place = memberOfName<LightPlace>(kPositions, verb.position),
-                               .weight = memberOfName<TexelWeight>(kWeights, verb.weights)};
+                               .side = *memberOf<LongerSide>(verb.cut),
+                               .place = *memberOf<LightPlace>(verb.position),
+                               .weight = *memberOf<TexelWeight>(verb.weights)};
         LightsOfProbe found = medianCutLights(probe, cut, verb.threads);
         warnUncounted(verb.input.file, found.uncountedValues);
         lights = std::move(found.lights);
@@ -126,9 +123,11 @@ void addProbeLights(Verb& probe) {
     const Option count = verb.add("--count", options->count, "Median cut: number of lights, a power of two")
                              .range(uint64_t{1}, uint64_t{1} << kMaxLog2Lights)
                              .excludes(log2);
-    verb.add("--cut", options->cut, "Longer side by angles, or by the length of the parallel").oneOf(kCuts);
-    verb.add("--position", options->position, "Where in its region a light lies").oneOf(kPositions);
-    verb.add("--weights", options->weights, "Weights of the rows (probes/median_cut.h)").oneOf(kWeights);
+    verb.add("--cut", options->cut, "Longer side by angles, or by the length of the parallel")
+        .oneOf(kNames<LongerSide>);
+    verb.add("--position", options->position, "Where in its region a light lies").oneOf(kNames<LightPlace>);
+    verb.add("--weights", options->weights, "Weights of the rows (probes/median_cut.h)")
+        .oneOf(kNames<TexelWeight>);
     verb.add("--threshold", options->threshold, "Dominant: fraction of the brightest texel").range(1e-6, 1.0);
     verb.add("--width", options->width, "Dominant: texels along the coarse image").range(1, kMaxImageSize);
     verb.add("--max-lights", options->maxLights, "Dominant: the most lights").range(1, 1 << 20);

@@ -10,9 +10,9 @@ namespace etalon {
 void ProbeInput::addTo(Verb& verb) {
     verb.add("FILE", file, "Image file of a probe (.exr, .hdr, .tif, .pfm)").required();
     verb.add("--mapping", mapping, "How the file lays out directions; default: told by the file")
-        .oneOf(kMappingNames);
+        .oneOf(kNames<Mapping>);
     verb.add("--layout", layout, "How the file lays out cube faces; default: told by its shape")
-        .oneOf(kLayoutNames);
+        .oneOf(kNames<CubeLayout>);
     verb.add("--ball-distance", ballDistance_radii,
              "Of a mirror ball, from the eye to its middle in radii; default: the file's, or infinity")
         .range(kLeastBallDistance_radii, std::numeric_limits<double>::infinity());
@@ -20,8 +20,8 @@ void ProbeInput::addTo(Verb& verb) {
 
 Probe ProbeInput::load() const {
     ProbeFileOptions options;
-    if (!mapping.empty()) options.mapping = memberOfName<Mapping>(kMappingNames, mapping);
-    if (!layout.empty()) options.layout = memberOfName<CubeLayout>(kLayoutNames, layout);
+    if (!mapping.empty()) options.mapping = *memberOf<Mapping>(mapping);
+    if (!layout.empty()) options.layout = *memberOf<CubeLayout>(layout);
     if (ballDistance_radii > 0) options.ballDistance_radii = ballDistance_radii;
     return loadProbe(file, options);
 }

@@ -1,25 +1,14 @@
 // The options that every verb about a probe in a file shares.
 #pragma once
 
-#include <algorithm>
-#include <iterator>
 #include <string>
-#include <string_view>
 
 #include "files/probe_file.h"
+#include "probes/names.h"
 
 namespace etalon {
 
 class Verb;
-
-// In the order of CubeLayout.
-inline constexpr std::string_view kLayoutNames[] = {"openexr", "strip", "horizontal_cross", "vertical_cross"};
-
-// The member of an enumeration whose names are in its order.
-template <class Enum, class Names>
-Enum memberOfName(const Names& names, const std::string& name) {
-    return static_cast<Enum>(std::find(std::begin(names), std::end(names), name) - std::begin(names));
-}
 
 struct ProbeInput {
     std::string file, mapping, layout;

@@ -23,7 +23,6 @@ struct ProbeShVerb {
 
 constexpr std::string_view kFunctions[] = {"radiance", "irradiance"};
 constexpr std::string_view kWindows[] = {"none", "hanning", "lanczos", "minimal"};
-constexpr std::string_view kLayouts[] = {"interleaved", "planar"};  // CoefficientLayout
 
 struct Windowed {
     SphericalHarmonics harmonics;
@@ -45,7 +44,7 @@ Windowed windowOf(const ProbeShVerb& verb, const SphericalHarmonics& f) {
 }
 
 CoefficientLayout layoutOf(const ProbeShVerb& verb) {
-    return verb.layout == "planar" ? CoefficientLayout::planar : CoefficientLayout::interleaved;
+    return memberOf<CoefficientLayout>(verb.layout).value_or(CoefficientLayout::interleaved);
 }
 
 std::string tableOf(const SphericalHarmonics& f) {
@@ -74,7 +73,7 @@ ExitCode runProbeSh(const ProbeShVerb& verb) {
                      {"window_factors", w.factors}};
         if (verb.window == "minimal") json["window_strength"] = Json::numberOf(w.strength);
         json["smallest_value"] = smallest;
-        json["layout"] = kLayouts[static_cast<size_t>(layoutOf(verb))];
+        json["layout"] = nameOf(layoutOf(verb));
         json["coefficients"] = layOut(w.harmonics, layoutOf(verb));
         printOut(jsonText(json));
     } else if (!verb.layout.empty()) {
@@ -107,7 +106,7 @@ void addProbeSh(Verb& probe) {
     verb.add("--coefficients", options->layout,
              "Only the numbers, one per line: interleaved (R G B of each coefficient, as ARCore) or "
              "planar (all of red first, as ARKit)")
-        .oneOf(kLayouts);
+        .oneOf(kNames<CoefficientLayout>);
     addIsaOption(verb);
     addThreadsOption(verb, options->threads);
     verb.addFlag("--json", options->json, "Report as JSON");

@@ -12,6 +12,8 @@ struct BitCase;        // bitcheck/bit_case.h
 void addRender(Verb& command);
 void addPlan(Verb& command);
 void addProfiles(Verb& command);
+void addOutputs(Verb& command);
+void addSchema(Verb& command);
 void addCompare(Verb& command);
 void addCheck(Verb& command, const GoldenSupport& support);
 void addAccept(Verb& command, const GoldenSupport& support);

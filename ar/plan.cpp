@@ -7,7 +7,7 @@
 #include "ar/surface_builder.h"
 #include "numeric/text.h"
 #include "probes/dominant_lights.h"
-#include "shadows/casting_lights.h"
+#include "scene/outputs.h"
 
 namespace etalon {
 namespace {
@@ -27,35 +27,6 @@ uint64_t shadowMemory(const LightShadow& shadow, bool isDirectional) {
     if (shadow.method == ShadowMethod::planar)
         return squared(shadow.planar.resolution) * (kBytesPerSample + sizeof(uint32_t) + sizeof(float));
     return 0;
-}
-
-VisibilityFacts visibilityFacts(const VisibleScene& visible, size_t objects) {
-    VisibilityFacts facts;
-    facts.objectVisible.assign(objects, false);
-    facts.backgroundVisible = false;
-    for (const uint32_t id : visible.target.id.values()) {
-        if (id == kNoTriangle)
-            facts.backgroundVisible = true;
-        else
-            facts.objectVisible[visible.instanceOfDraw[visible.target.triangles[id].draw]] = true;
-    }
-    return facts;
-}
-
-// Which of the environment's lights cast shadows.
-std::vector<EnvironmentCaster> castersOf(const Environment& environment,
-                                         const std::vector<ProbeLight>& lights) {
-    std::vector<size_t> found =
-        environment.shadowShare > 0
-            ? lightsOfLargestShare(lights, environment.shadowShare)
-            : lightsOfSmallestRegion(lights, static_cast<size_t>(environment.shadowLights));
-    found.resize(std::min(found.size(), size_t{kMaxShadowLights}));
-    const double total = energyOf(totalEnergy(lights));
-    std::vector<EnvironmentCaster> casters;
-    for (const size_t i : found)
-        casters.push_back(
-            {i, lights[i].solidAngle_sr, energyOf(lights[i].energy) / total, surfaceLightOf(lights[i])});
-    return casters;
 }
 
 // Whether the whole number n > 0 is a number of the format.
@@ -84,6 +55,10 @@ class Planner : public std::enable_shared_from_this<Planner> {
                     options.everything} {}
 
     void plan(PassList& list) {
+        for (const std::string& output : outputs_)
+            if (!findOutput(output))
+                throw InputError(formatText("no output is called '{}'; there are {}", output,
+                                            joinText(outputNames(), ", ")));
         addGeometry(list);
         addVisibility(list);
         addEnvironment(list);
@@ -116,6 +91,13 @@ class Planner : public std::enable_shared_from_this<Planner> {
         return std::ranges::find(outputs_, output) != outputs_.end();
     }
     bool beautyAsked() const { return asked("beauty") || png_; }
+    // What the environment gives, or of it is reflected.
+    bool environmentAsked() const { return asked("irradiance") || asked("environment"); }
+    bool environmentCasts() const {
+        return showing_.environmentHasLights() && scene_.environment.shadow.method != ShadowMethod::none;
+    }
+    // An output shows shadows, wherever the scene is lit.
+    bool shadowsAsked() const { return asked("shadow") || (environmentAsked() && environmentCasts()); }
     bool isShaded(std::string_view component) const { return asked(component) || beautyAsked(); }
     uint64_t pixels() const {
         return static_cast<uint64_t>(scene_.camera.width) * static_cast<uint64_t>(scene_.camera.height);
@@ -205,8 +187,7 @@ class Planner : public std::enable_shared_from_this<Planner> {
         illumination_ = add(
             list,
             textOf(std::string(kEnvironmentLight),
-                   formatText("surfaces are lit by the environment: {}",
-                              kEnvironmentLightMethods[static_cast<size_t>(method)]),
+                   formatText("surfaces are lit by the environment: {}", nameOf(method)),
                    method == EnvironmentLightMethod::none ? "it lights no surfaces"
                    : showing_.environmentIsBlack()        ? "the environment is black"
                                                           : "",
@@ -220,8 +201,7 @@ class Planner : public std::enable_shared_from_this<Planner> {
                                                settings_.raster.threads);
             },
             image());
-        if (!showing_.environmentHasLights() || scene_.environment.shadow.method == ShadowMethod::none)
-            return;
+        if (!environmentCasts()) return;
         list.whenDone<EnvironmentIllumination>(
             *illumination_,
             [self = shared_from_this()](PassList& done, const EnvironmentIllumination& found) {
@@ -280,7 +260,7 @@ class Planner : public std::enable_shared_from_this<Planner> {
 
     // What each light asks for, if something lies in its way.
     void addShadows(PassList& list) {
-        shadows_.clear();
+        shadows_.clear(), casting_.clear();
         for (size_t l = 0; l < scene_.lights.size(); l++) {
             const SceneLight& light = scene_.lights[l];
             const SurfaceLight source = surfaceLightOf(light);
@@ -290,7 +270,7 @@ class Planner : public std::enable_shared_from_this<Planner> {
                           isBlack(isDirectional ? source.irradiance : source.intensity), "");
         }
         const Environment& environment = scene_.environment;
-        if (environment.shadow.method == ShadowMethod::none || !showing_.environmentHasLights()) return;
+        if (!environmentCasts()) return;
         if (facts_.casters) {
             for (const EnvironmentCaster& caster : *facts_.casters)
                 addShadow(list, {LightId::Of::environment, caster.light}, caster.source, environment.shadow,
@@ -322,18 +302,20 @@ class Planner : public std::enable_shared_from_this<Planner> {
     }
     void addShadow(PassList& list, LightId id, const SurfaceLight& source, const LightShadow& shadow,
                    bool isBlack, const std::string& about) {
-        constexpr std::string_view kNames[] = {"", "shadow map", "shadow volumes", "planar shadows"};
+        casting_.push_back(id);
+        // Where the shadow itself is shown, also a black light has one.
+        const bool isOutput = asked("shadow");
         const std::optional<ShadowFit> fit = showing_.fitOf(source, shadow);
         const std::string nothing =
-            isBlack ? "the light is black" : showing_.whyNoShadow(source, shadow, fit);
+            isBlack && !isOutput ? "the light is black" : showing_.whyNoShadow(source, shadow, fit, isOutput);
         std::string why = "objects may stand in the light's way";
         if (fit) why = "cast by " + showing_.namesOf(fit->casters);
         if (const auto planes = showing_.planarReceivers(); planes && shadow.method == ShadowMethod::planar)
             why = "may fall on " + showing_.namesOf(*planes);
         PassText text =
-            textOf(formatText("{} of {}", kNames[static_cast<size_t>(shadow.method)], nameOf(id)),
-                   about + why, nothing.empty() ? "" : about + nothing, unneededShadow(),
-                   PassNumbers::fragment, shadowMemory(shadow, source.kind == LightKind::directional));
+            textOf(formatText("{} of {}", passNameOf(shadow.method), nameOf(id)), about + why,
+                   nothing.empty() ? "" : about + nothing, unneededShadow(), PassNumbers::fragment,
+                   shadowMemory(shadow, source.kind == LightKind::directional));
         if (shadow.method == ShadowMethod::volume) text.numbers = PassNumbers::none;
         text.isLookedUp = true;
         const auto addOf = [&](auto run) {
@@ -429,26 +411,37 @@ class Planner : public std::enable_shared_from_this<Planner> {
 
     // Of what the ambient light and the environment's diffuse light reach, where the scene asks for it.
     void addOcclusion(PassList& list) {
-        occlusion_.clear();
+        occlusion_.clear(), occlusionOfFragments_.clear();
         const Render& render = scene_.render;
         if (render.occlusionDirections == 0) return;
-        // One depth map at a time, and a point and its sums for each fragment.
-        constexpr uint64_t kBytesPerPoint = 256;
-        const std::string nothing = showing_.whyNoOcclusion();
+        const bool ofAllSurfaces = asked("occlusion") || asked("irradiance");
+        const std::string why =
+            formatText("surfaces see their surroundings from {} directions", render.occlusionDirections);
+        const auto addOf = [&](const char* name, bool ofVertices, const std::string& nothing) {
+            // One depth map at a time, and a point and its sums for each fragment.
+            constexpr uint64_t kBytesPerPoint = 256;
+            const Result<SurfaceOcclusion> found = add(
+                list,
+                textOf(name, why, nothing, "nothing that runs is lit from everywhere", PassNumbers::doubles,
+                       squared(render.occlusionMapSize) * kBytesPerSample + samples() * kBytesPerPoint),
+                SurfaceOcclusion{},
+                [this, ofVertices](const PassContext& context, const Geometry& of,
+                                   const VisibleView& visible) {
+                    return occlusionInView(settings_, context, ofVertices, of, visible);
+                },
+                geometry(), visibility());
+            list.passes.back().text.isLookedUp = true;
+            return found;
+        };
+        const std::string nothing =
+            showing_.whyNoOcclusion(render.perVertex, ofAllSurfaces && !render.perVertex);
         hasOcclusion_ = nothing.empty() || everything_;
-        occlusion_.push_back(add(
-            list,
-            textOf(
-                "ambient occlusion",
-                formatText("surfaces see their surroundings from {} directions", render.occlusionDirections),
-                nothing, "nothing that runs is lit from everywhere", PassNumbers::doubles,
-                squared(render.occlusionMapSize) * kBytesPerSample + samples() * kBytesPerPoint),
-            SurfaceOcclusion{},
-            [this](const PassContext& context, const Geometry& of, const VisibleView& visible) {
-                return occlusionInView(settings_, context, of, visible);
-            },
-            geometry(), visibility()));
-        list.passes.back().text.isLookedUp = true;
+        occlusion_.push_back(addOf("ambient occlusion", render.perVertex, nothing));
+        if (!render.perVertex)
+            occlusionOfFragments_ = occlusion_;
+        else if (ofAllSurfaces || environmentAsked())
+            occlusionOfFragments_.push_back(addOf("ambient occlusion of fragments", false,
+                                                  showing_.whyNoOcclusion(false, ofAllSurfaces)));
     }
     // Gouraud shading, where the scene asks for it.
     void addVertexLighting(PassList& list) {
@@ -475,7 +468,7 @@ class Planner : public std::enable_shared_from_this<Planner> {
     // What stands between the lights and what the camera sees.
     void addViewShadows(PassList& list) {
         viewShadows_.clear();
-        if (shadows_.empty() || scene_.render.perVertex) return;
+        if (shadows_.empty() || (scene_.render.perVertex && !shadowsAsked())) return;
         uint64_t volumes = 0;
         std::string nothing = "no light that shows casts shadows on what is visible";
         for (const Result<CastShadow>& shadow : shadows_) {
@@ -503,6 +496,8 @@ class Planner : public std::enable_shared_from_this<Planner> {
             geometry(), *lights_, shadows_));
         list.passes.back().text.isLookedUp = true;
     }
+    using InView = std::vector<Result<ViewShadows>>;
+    InView viewShadowsIf(bool condition) const { return condition ? viewShadows_ : InView{}; }
 
     // A result for as long as the plan lives, or several.
     template <class T>
@@ -570,6 +565,7 @@ class Planner : public std::enable_shared_from_this<Planner> {
         };
         const bool perVertex = scene_.render.perVertex;
         const Occlusion ofFragments = perVertex ? Occlusion{} : occlusion_;
+        const InView lightShadows = viewShadowsIf(!perVertex);
 
         // Where lights are evaluated at vertices, these also know what is open.
         addTerm(
@@ -589,7 +585,7 @@ class Planner : public std::enable_shared_from_this<Planner> {
                 addOcclusionTo(job, occlusion);
                 addVerticesTo(job, vertices);
             },
-            *lights_, illuminationIf(showing_.environmentLights()), viewShadows_,
+            *lights_, illuminationIf(showing_.environmentLights()), lightShadows,
             showing_.environmentIsDiffuse() || everything_ ? ofFragments : Occlusion{}, vertices_);
         addTerm(
             list, ShadeOutput::specular, "specular", showing_.whyBlack(ShadeOutput::specular),
@@ -599,7 +595,7 @@ class Planner : public std::enable_shared_from_this<Planner> {
                 addShadowsTo(job, shadows);
                 addVerticesTo(job, vertices);
             },
-            *lights_, viewShadows_, vertices_);
+            *lights_, lightShadows, vertices_);
 
         std::vector<uint32_t> cubeOf;
         std::vector<Result<CubeRender>> cubes;
@@ -629,12 +625,56 @@ class Planner : public std::enable_shared_from_this<Planner> {
         if (hasComponents_) list.passes.back().text.dependsOn = dependenceOf(list, components_);
         addTerm(list, ShadeOutput::normals, "normals", "", nothingMore);
         addTerm(list, ShadeOutput::distance, "distance", "", nothingMore);
+        addTerm(list, ShadeOutput::depth, "depth", "", nothingMore);
+
+        // What is found at fragments, wherever these are lit.
+        std::string noShadow = "no light that shows casts shadows on what is visible";
+        for (const Result<CastShadow>& shadow : shadows_)
+            if (list.passes[shadow.pass()].text.nothing.empty()) noShadow.clear();
+        addTerm(
+            list, ShadeOutput::shadows, "shadow", noShadow,
+            [=, casting = casting_](ShadeJob& job, const SceneLights& lights, const Shadows& shadows) {
+                job.sources.lights = &lights.lights();
+                job.sources.shows = &lights.shows();
+                for (const LightId& light : casting) job.shadowLights.push_back(lights.numberOf(light));
+                addShadowsTo(job, shadows);
+            },
+            *lights_, viewShadows_);
+        addTerm(
+            list, ShadeOutput::open, "occlusion", showing_.whyNothingVisible(),
+            [=](ShadeJob& job, const Occlusions& occlusion) {
+                job.request[ShadeOutput::bentNormals] = job.request[ShadeOutput::open];
+                addOcclusionTo(job, occlusion);
+            },
+            occlusionOfFragments_);
+        const auto addEnvironmentTo = [=](ShadeJob& job, const SceneLights& lights,
+                                          const std::vector<const EnvironmentIllumination*>& environment,
+                                          const Shadows& shadows, const Occlusions& occlusion) {
+            job.sources = sourcesOf(lights, only(environment));
+            job.environmentLights = lights.ofEnvironment();
+            addShadowsTo(job, shadows);
+            addOcclusionTo(job, occlusion);
+        };
+        const Occlusion aroundFragments =
+            showing_.environmentIsDiffuse() || everything_ ? occlusionOfFragments_ : Occlusion{};
+        addTerm(list, ShadeOutput::irradiance, "irradiance", showing_.whyNoIrradiance(), addEnvironmentTo,
+                *lights_, illuminationIf(showing_.environmentLights()), viewShadowsIf(environmentCasts()),
+                aroundFragments);
+        addTerm(list, ShadeOutput::environment, "environment", showing_.whyNoEnvironment(), addEnvironmentTo,
+                *lights_, illuminationIf(showing_.environmentLights()), viewShadowsIf(environmentCasts()),
+                aroundFragments);
     }
 
+    // How many channels an output has.
+    uint64_t channelsOf(std::string_view output) const {
+        uint64_t channels = 0;
+        for (const OutputPart& part : findOutput(output)->parts)
+            channels += part.image == ShadeOutput::shadows ? casting_.size() : part.channels.size();
+        return channels;
+    }
     void addShading(PassList& list) {
         uint64_t floats = 0;
-        for (const Result<ShadeTerm>& term : terms_)
-            floats += list.passes[term.pass()].name() == "distance" ? 1 : 3;
+        for (const Result<ShadeTerm>& term : terms_) floats += channelsOf(list.passes[term.pass()].name());
         results_->shading = add(
             list,
             textOf("shading", "", hasTerms_ ? "" : "all that it would show is black", "no output shows it",
@@ -650,27 +690,26 @@ class Planner : public std::enable_shared_from_this<Planner> {
 
     void addFrame(PassList& list) {
         std::vector<Result<OutputChannels>> made;
-        const auto addOutput = [&](std::string_view name, OutputChannels (*make)(const VisibleView&),
-                                   uint64_t floats) {
+        const auto addOutput = [&](std::string_view name, OutputChannels (*make)(const VisibleView&)) {
             const Result<OutputChannels> output = add(
                 list,
                 textOf(std::string(name), "output asked for", "", "not an output", PassNumbers::none,
-                       pixels() * floats * kBytesPerFloat),
+                       pixels() * channelsOf(name) * kBytesPerFloat),
                 OutputChannels{name, {}},
                 [make](const PassContext&, const VisibleView& visible) { return make(visible); },
                 visibility());
             if (asked(name) || everything_) made.push_back(output);
         };
-        addOutput("depth", depthChannels, 1);
-        addOutput("ids", idChannels, 2);
-        addOutput("coverage", coverageChannels, 1);
+        addOutput("alpha", alphaChannels);
+        addOutput("window_depth", windowDepthChannels);
+        addOutput("ids", idChannels);
+        addOutput("coverage", coverageChannels);
 
         uint64_t floats = 0;
         bool isAnyShaded = false;
         for (const std::string& output : outputs_) {
-            const bool isOne = output == "distance" || output == "depth" || output == "coverage";
-            floats += output == "ids" ? 2 : isOne ? 1 : 3;
-            isAnyShaded = isAnyShaded || !(output == "depth" || output == "ids" || output == "coverage");
+            floats += channelsOf(output);
+            for (const OutputPart& part : findOutput(output)->parts) isAnyShaded = isAnyShaded || part.image;
         }
         using ShadingIf = std::vector<Result<Shading>>;
         PassText text = textOf("frame", "the outputs as channels", "", "", PassNumbers::none,
@@ -678,10 +717,11 @@ class Planner : public std::enable_shared_from_this<Planner> {
         text.isRoot = true;
         results_->frame = add(
             list, std::move(text), Frame{},
-            [this](const PassContext& context, const std::vector<const OutputChannels*>& channels,
-                   const std::vector<const Shading*>& shading) {
+            [this, casting = casting_](const PassContext& context,
+                                       const std::vector<const OutputChannels*>& channels,
+                                       const std::vector<const Shading*>& shading) {
                 static const Shading none;
-                return frameOf(settings_, context, outputs_, channels,
+                return frameOf(settings_, context, outputs_, casting, channels,
                                shading.empty() ? none : *shading.front());
             },
             made, isAnyShaded || everything_ ? ShadingIf{*results_->shading} : ShadingIf{});
@@ -708,9 +748,10 @@ class Planner : public std::enable_shared_from_this<Planner> {
     std::optional<Result<EnvironmentIllumination>> illumination_;
     std::optional<Result<SceneLights>> lights_;
     std::vector<Result<CastShadow>> shadows_;
+    std::vector<LightId> casting_;  // the lights that are known to have shadows
     std::optional<Result<std::optional<CubeMap<float>>>> environmentCube_;
     std::vector<std::pair<uint32_t, Result<CubeRender>>> cubes_;
-    Occlusion occlusion_;
+    Occlusion occlusion_, occlusionOfFragments_;  // where surfaces are lit; of fragments in any case
     bool hasOcclusion_ = false;
     std::vector<Result<std::vector<VertexRadiance>>> vertices_;
     std::vector<Result<ViewShadows>> viewShadows_;

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "ar/pass.h"
+#include "ar/plan_facts.h"
 #include "ar/scene_passes.h"
 #include "files/json.h"
 #include "raster/rasterizer.h"
@@ -26,7 +27,7 @@ struct Plan;
 
 // What is asked for beyond the scene's own outputs.
 struct PlanRequest {
-    std::vector<std::string> outputs;  // of kOutputNames; empty: those of the scene
+    std::vector<std::string> outputs;  // of outputNames(); empty: those of the scene
     bool png = false;                  // a tone mapped image is written
 };
 
@@ -48,27 +49,6 @@ struct RenderOptions {
     bool everything = false;
     std::function<void(const RenderProgress&)> progress;  // may come from any thread, one call at a time
     std::function<void(uint64_t bytes)> announceMemory;   // called before memory of that size is taken
-};
-
-// What a view shows.
-struct VisibilityFacts {
-    std::vector<bool> objectVisible;  // for each of sceneObjects
-    bool backgroundVisible = true;
-};
-
-// A light of the environment that casts shadows.
-struct EnvironmentCaster {
-    size_t light = 0;          // among those of the environment
-    double solidAngle_sr = 0;  // that it stands for
-    double share = 0;          // of the energy of all of them
-    SurfaceLight source;
-};
-
-// What passes have found.
-struct PlanFacts {
-    const Geometry* geometry = nullptr;
-    std::optional<VisibilityFacts> visibility;
-    std::optional<std::vector<EnvironmentCaster>> casters;
 };
 
 // What the passes yield that is not read by others. Those of a refined plan replace those of the plan before.

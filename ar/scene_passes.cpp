@@ -7,6 +7,7 @@
 #include "numeric/text.h"
 #include "raster/depth.h"
 #include "raster/rules.h"
+#include "scene/outputs.h"
 #include "shadows/joint_visibility.h"
 #include "shadows/planar_lights.h"
 #include "shadows/shadow_maps.h"
@@ -30,35 +31,36 @@ ShadeJob viewJob(const SceneSettings& settings, const PassContext& context, cons
     return job;
 }
 
-// The channels of an image that shading makes; 0 where it has made none.
-void addPlanes(Frame& frame, const Image<float>& image, const std::vector<std::string>& names) {
+// The channels of an image that shading makes, or where it has made none of what is missing.
+void addPlanes(Frame& frame, const Image<float>& image, const std::vector<std::string>& names,
+               float missing) {
     for (size_t c = 0; c < names.size(); c++) {
         Image<float> plane(frame.width, frame.height);
-        if (!image.empty()) std::ranges::copy(image.plane(static_cast<int>(c)), plane.values().begin());
+        if (image.empty())
+            plane.fill(missing);
+        else
+            std::ranges::copy(image.plane(static_cast<int>(c)), plane.values().begin());
         frame.channels.push_back({names[c], std::move(plane)});
     }
 }
 
-struct ShadedOutput {
-    std::string_view name;
-    ShadeOutput image;
-    std::vector<std::string> channels;
-};
-const std::vector<ShadedOutput>& shadedOutputs() {
-    const auto colour = [](const std::string& layer) {
-        return std::vector<std::string>{layer + "R", layer + "G", layer + "B"};
-    };
-    static const std::vector<ShadedOutput> outputs = {
-        {"beauty", ShadeOutput::beauty, colour("")},
-        {"distance", ShadeOutput::distance, {"distance"}},
-        {"normals", ShadeOutput::normals, {"N.X", "N.Y", "N.Z"}},
-        {"diffuse", ShadeOutput::diffuse, colour("diffuse.")},
-        {"specular", ShadeOutput::specular, colour("specular.")},
-        {"mirror", ShadeOutput::mirror, colour("mirror.")},
-        {"background", ShadeOutput::background, colour("background.")},
-        {"ambient", ShadeOutput::ambient, colour("ambient.")},
-    };
-    return outputs;
+std::vector<std::string> channelsOf(const OutputPart& part, const std::vector<LightId>& casting) {
+    if (part.image != ShadeOutput::shadows) return {part.channels.begin(), part.channels.end()};
+    std::vector<std::string> names;
+    for (const LightId& light : casting) names.push_back("shadow." + channelNameOf(light));
+    return names;
+}
+
+// The fraction of a pixel's samples that objects cover.
+Image<float> coverageOf(const VisibleView& visible) {
+    const Image<uint32_t>& id = visible.scene->target.id;
+    Image<float> coverage(id.width(), id.height());
+    for (size_t i = 0; i < coverage.pixelCount(); i++) {
+        int covered = 0;
+        for (int s = 0; s < id.channels(); s++) covered += id.plane(s)[i] != kNoTriangle ? 1 : 0;
+        coverage.values()[i] = static_cast<float>(covered) / static_cast<float>(id.channels());
+    }
+    return coverage;
 }
 
 }  // namespace
@@ -70,6 +72,9 @@ LightSources sourcesOf(const SceneLights& lights, const EnvironmentIllumination&
 std::string nameOf(const LightId& light) {
     return light.of == LightId::Of::scene ? formatText("light{}", light.index)
                                           : formatText("environment light {}", light.index);
+}
+std::string channelNameOf(const LightId& light) {
+    return formatText("{}{}", light.of == LightId::Of::scene ? "light" : "environment", light.index);
 }
 
 void SceneLights::addScene(const Scene& scene, const std::vector<bool>& shows) {
@@ -105,13 +110,13 @@ VisibleView findVisibleInView(const SceneSettings& settings, const PassContext& 
     return visible;
 }
 
-OutputChannels depthChannels(const VisibleView& visible) {
+OutputChannels windowDepthChannels(const VisibleView& visible) {
     const RenderTarget& target = visible.scene->target;
     Image<float> depth(target.width(), target.height());
     for (size_t i = 0; i < depth.pixelCount(); i++)
         depth.values()[i] =
             static_cast<float>(depthFromStored(target.format.depth, target.depth.plane(0)[i]));
-    return {"depth", {{"Z", std::move(depth)}}};
+    return {"window_depth", {{"depth.window", std::move(depth)}}};
 }
 
 OutputChannels idChannels(const VisibleView& visible) {
@@ -121,21 +126,16 @@ OutputChannels idChannels(const VisibleView& visible) {
         const uint32_t id = target.id.plane(0)[i];
         if (id == kNoTriangle) continue;
         objects.values()[i] = visible.scene->instanceOfDraw[target.triangles[id].draw] + 1;
-        triangles.values()[i] = target.triangles[id].triangle;
+        triangles.values()[i] = target.triangles[id].triangle + 1;
     }
     return {"ids", {{"id.object", std::move(objects)}, {"id.triangle", std::move(triangles)}}};
 }
 
 OutputChannels coverageChannels(const VisibleView& visible) {
-    const Image<uint32_t>& id = visible.scene->target.id;
-    Image<float> coverage(id.width(), id.height());
-    for (size_t i = 0; i < coverage.pixelCount(); i++) {
-        int covered = 0;
-        for (int s = 0; s < id.channels(); s++) covered += id.plane(s)[i] != kNoTriangle ? 1 : 0;
-        coverage.values()[i] = static_cast<float>(covered) / static_cast<float>(id.channels());
-    }
-    return {"coverage", {{"coverage", std::move(coverage)}}};
+    return {"coverage", {{"coverage", coverageOf(visible)}}};
 }
+
+OutputChannels alphaChannels(const VisibleView& visible) { return {"alpha", {{"A", coverageOf(visible)}}}; }
 
 CastShadow castByMap(const SceneSettings& settings, const PassContext& context, const Geometry& geometry,
                      const SceneLights& lights, const LightId& light, const ShadowFit& fit,
@@ -195,10 +195,10 @@ ViewShadows shadowsOfView(const SceneSettings& settings, const PassContext& cont
     return {std::make_shared<JointVisibility>(std::move(ways))};
 }
 
-SurfaceOcclusion occlusionInView(const SceneSettings& settings, const PassContext& context,
+SurfaceOcclusion occlusionInView(const SceneSettings& settings, const PassContext& context, bool ofVertices,
                                  const Geometry& geometry, const VisibleView& visible) {
     const ShadeJob job = viewJob(settings, context, geometry, visible);
-    if (settings.scene->render.perVertex) return {{}, vertexOcclusion(job, occlusionOptions(settings))};
+    if (ofVertices) return {{}, vertexOcclusion(job, occlusionOptions(settings))};
     return {fragmentOcclusion(job, occlusionOptions(settings)), {}};
 }
 
@@ -254,33 +254,34 @@ Shading shadeView(const SceneSettings& settings, const PassContext& context, con
 }
 
 Frame frameOf(const SceneSettings& settings, const PassContext& context,
-              const std::vector<std::string>& outputs, const std::vector<const OutputChannels*>& made,
-              const Shading& shading) {
+              const std::vector<std::string>& outputs, const std::vector<LightId>& casting,
+              const std::vector<const OutputChannels*>& made, const Shading& shading) {
     Frame frame;
     frame.width = settings.view.width;
     frame.height = settings.view.height;
     frame.metadata = {{"etalon.scene", settings.scene->file.filename().string()},
                       {"etalon.profile", std::string(context.profile.name)},
                       {"etalon.rules", std::to_string(kRulesVersion)}};
-    for (const std::string_view name : kOutputNames) {
-        if (std::ranges::find(outputs, name) == outputs.end()) continue;
-        for (const OutputChannels* output : made)
-            if (output->output == name)
-                frame.channels.insert(frame.channels.end(), output->channels.begin(), output->channels.end());
-        for (const ShadedOutput& output : shadedOutputs())
-            if (output.name == name) addPlanes(frame, shading.images[output.image], output.channels);
+    for (const OutputDescription& output : outputDescriptions()) {
+        if (std::ranges::find(outputs, output.name) == outputs.end()) continue;
+        for (const OutputChannels* of : made)
+            if (of->output == output.name)
+                frame.channels.insert(frame.channels.end(), of->channels.begin(), of->channels.end());
+        for (const OutputPart& part : output.parts)
+            if (part.image)
+                addPlanes(frame, shading.images[*part.image], channelsOf(part, casting), part.missing);
     }
+    if (frame.channels.empty())
+        throw InputError(formatText("{}: the output 'shadow' alone is asked for, and no light casts shadows",
+                                    where(*settings.scene, settings.scene->output.line)));
     return frame;
 }
 
 Image<uint8_t> toneMapped(const SceneSettings& settings, const Shading& shading) {
     const Output& output = settings.scene->output;
-    const ToneMap map = output.toneMap == "reinhard" ? ToneMap::reinhard
-                        : output.toneMap == "filmic" ? ToneMap::filmic
-                                                     : ToneMap::linear;
     const Image<float>& beauty = shading.images[ShadeOutput::beauty];
-    return toneMap(beauty.empty() ? Image<float>(settings.view.width, settings.view.height, 3) : beauty, map,
-                   output.exposure, settings.raster.threads);
+    return toneMap(beauty.empty() ? Image<float>(settings.view.width, settings.view.height, 3) : beauty,
+                   output.toneMap, output.exposure, settings.raster.threads);
 }
 
 }  // namespace etalon

@@ -42,8 +42,9 @@ struct LightId {
     Of of = Of::scene;
     size_t index = 0;  // among those
 };
-// "light0", "environment light 3".
+// "light0", "environment light 3"; and in the names of channels and files: "light0", "environment3".
 std::string nameOf(const LightId& light);
+std::string channelNameOf(const LightId& light);
 
 // All lights, in the order in which they are added up.
 class SceneLights {
@@ -54,8 +55,9 @@ class SceneLights {
 
     const std::vector<SurfaceLight>& lights() const { return lights_; }
     const std::vector<bool>& shows() const { return shows_; }
-    // Of a light, in both.
+    // Of a light, in both; and of all that the environment is cut into.
     size_t numberOf(const LightId& light) const;
+    const std::vector<size_t>& ofEnvironment() const { return ofEnvironment_; }
 
   private:
     std::vector<SurfaceLight> lights_;
@@ -97,7 +99,7 @@ struct Shading {
     ShadeStatistics statistics;
 };
 
-// The channels of an output (of kOutputNames).
+// The channels of an output that shading does not make.
 struct OutputChannels {
     std::string_view output;
     std::vector<Channel> channels;
@@ -117,12 +119,11 @@ Geometry placeGeometry(const SceneSettings& settings, const PassContext& context
 VisibleView findVisibleInView(const SceneSettings& settings, const PassContext& context,
                               const Geometry& geometry);
 
-// Sample 0 as it is stored, on the scale 0 (near) to 1 (far).
-OutputChannels depthChannels(const VisibleView& visible);
-// Sample 0: the object (1 for the first; 0: nothing) and its triangle (from 0).
+// What the outputs say (scene/outputs.h).
+OutputChannels windowDepthChannels(const VisibleView& visible);
 OutputChannels idChannels(const VisibleView& visible);
-// The fraction of a pixel's samples that objects cover.
 OutputChannels coverageChannels(const VisibleView& visible);
+OutputChannels alphaChannels(const VisibleView& visible);
 
 // The map of the light, or its volumes' casters. casters: what it is fitted to.
 CastShadow castByMap(const SceneSettings& settings, const PassContext& context, const Geometry& geometry,
@@ -137,7 +138,8 @@ ViewShadows shadowsOfView(const SceneSettings& settings, const PassContext& cont
                           const SceneLights& lights, const std::vector<const CastShadow*>& shadows,
                           const View& view, int samples, uint32_t excluded);
 
-SurfaceOcclusion occlusionInView(const SceneSettings& settings, const PassContext& context,
+// ofVertices: else of fragments.
+SurfaceOcclusion occlusionInView(const SceneSettings& settings, const PassContext& context, bool ofVertices,
                                  const Geometry& geometry, const VisibleView& visible);
 
 std::vector<VertexRadiance> lightVertices(const SceneSettings& settings, const PassContext& context,
@@ -156,10 +158,11 @@ CubeRender renderObjectCube(const SceneSettings& settings, const PassContext& co
 Shading shadeView(const SceneSettings& settings, const PassContext& context, const Geometry& geometry,
                   const VisibleView& visible, const std::vector<const ShadeTerm*>& terms);
 
-// The outputs in the order of kOutputNames: those that are made, and of shading; what shading has not made is 0.
+// The outputs in the order of their table (scene/outputs.h): those that are made, and of shading; what shading has not
+// made is OutputPart::missing. casting: the lights whose shadows are an output. InputError if no output has a channel.
 Frame frameOf(const SceneSettings& settings, const PassContext& context,
-              const std::vector<std::string>& outputs, const std::vector<const OutputChannels*>& made,
-              const Shading& shading);
+              const std::vector<std::string>& outputs, const std::vector<LightId>& casting,
+              const std::vector<const OutputChannels*>& made, const Shading& shading);
 
 // The tone mapped beauty as a PNG holds it.
 Image<uint8_t> toneMapped(const SceneSettings& settings, const Shading& shading);

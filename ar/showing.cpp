@@ -161,19 +161,35 @@ bool Showing::isOpen(const std::vector<bool>& marked, const Arithmetic& arithmet
     return isAllOpen(facts_.geometry->placed, facts_.geometry->surfaces.instances, marked,
                      scene_.render.occlusionMapSize, significandBitsOf(arithmetic));
 }
-std::string Showing::whyNoOcclusion() const {
+std::string Showing::whyNoOcclusion(bool ofVertices, bool ofAllSurfaces) const {
     std::vector<bool> marked(objects_.size());
-    for (size_t i = 0; i < objects_.size(); i++) marked[i] = reflectsDiffusely(materials_[i]) && isVisible(i);
+    for (size_t i = 0; i < objects_.size(); i++)
+        marked[i] = (ofAllSurfaces || reflectsDiffusely(materials_[i])) && isVisible(i);
     // Where nothing is lit from everywhere, no pass asks.
     if (!facts_.geometry || std::ranges::find(marked, true) == marked.end()) return {};
     // Bent normals are doubles, made unit at vertices: those that are not bent may differ from the normal in the
     // last place.
-    const bool perVertex = scene_.render.perVertex;
-    const bool isRounded = perVertex || profile_.fragment == Arithmetic::truth;
-    if (environmentIsDiffuse() && isRounded) return {};
-    return isOpen(marked, perVertex ? vertexArithmetic(profile_) : profile_.fragment)
+    const bool isRounded = ofVertices || profile_.fragment == Arithmetic::truth;
+    if ((environmentIsDiffuse() || ofAllSurfaces) && isRounded) return {};
+    return isOpen(marked, ofVertices ? vertexArithmetic(profile_) : profile_.fragment)
                ? "nothing can occlude what is visible"
                : "";
+}
+std::string Showing::whyNothingVisible() const {
+    for (size_t i = 0; i < objects_.size(); i++)
+        if (isVisible(i)) return {};
+    return "no surface is visible";
+}
+std::string Showing::whyNoIrradiance() const {
+    if (environmentIsBlack()) return "the environment is black";
+    if (!environmentLights()) return "the environment lights no surfaces";
+    return whyNothingVisible();
+}
+std::string Showing::whyNoEnvironment() const {
+    const std::string dark = whyNoIrradiance();
+    return dark.empty() ? whyMissing([](const SurfaceMaterial& m) { return hasDiffusePart(m); },
+                                     reflectsDiffusely, "diffuse surface", "diffuse reflectance")
+                        : dark;
 }
 bool Showing::cubesHaveOcclusion() const {
     if (scene_.render.occlusionDirections == 0) return false;
@@ -207,11 +223,11 @@ std::optional<std::vector<uint32_t>> Showing::planarReceivers() const {
 }
 
 std::string Showing::whyNoShadow(const SurfaceLight& light, const LightShadow& shadow,
-                                 const std::optional<ShadowFit>& fit) const {
+                                 const std::optional<ShadowFit>& fit, bool isOutput) const {
     const std::vector<bool> receives = receivers();
     if (std::ranges::find(receives, true) == receives.end())
         return "no surface that is visible reflects lights";
-    bool isReached = false;
+    bool isReached = isOutput;
     for (size_t i = 0; i < objects_.size() && !isReached; i++) isReached = receives[i] && reaches(light, i);
     if (!isReached) return "the light is behind all that is visible";
     if (fit && fit->casters.empty()) return "nothing stands between the light and what is visible";

@@ -46,8 +46,13 @@ class Showing {
     bool cubeSeesMirror(size_t object) const;
     bool isEnvironmentMirrorVisible() const;
 
-    // Why all that the camera sees of diffuse surfaces is open, or nothing depends on it.
-    std::string whyNoOcclusion() const;
+    // Why all that the camera sees of diffuse surfaces, or of all, is open, or nothing depends on it. ofVertices:
+    // found at vertices, else at fragments.
+    std::string whyNoOcclusion(bool ofVertices, bool ofAllSurfaces) const;
+    // Why nothing that is visible receives light of the environment, or, if it reflects it, none that it reflects.
+    std::string whyNoIrradiance() const;
+    std::string whyNoEnvironment() const;
+    std::string whyNothingVisible() const;
     // Whether what cube maps show depends on what it sees of its surroundings.
     bool cubesHaveOcclusion() const;
 
@@ -57,9 +62,10 @@ class Showing {
     std::optional<ShadowFit> fitOf(const SurfaceLight& light, const LightShadow& shadow) const;
     // The receivers that are planes; none: the geometry is not known.
     std::optional<std::vector<uint32_t>> planarReceivers() const;
-    // Why a light that is not black has no shadow. fit: that of maps and volumes.
+    // Why a light that is not black has no shadow. fit: that of maps and volumes. isOutput: what its shadow method finds is shown, and not
+    // only what the light loses by it.
     std::string whyNoShadow(const SurfaceLight& light, const LightShadow& shadow,
-                            const std::optional<ShadowFit>& fit) const;
+                            const std::optional<ShadowFit>& fit, bool isOutput) const;
 
     // The names of objects; the first few of many.
     std::string namesOf(const std::vector<uint32_t>& objects) const;

@@ -7,6 +7,7 @@
 #include "lighting/tone_map.h"
 #include "probes/latlong.h"
 #include "raster/blur.h"
+#include "raster/names.h"
 #include "raster/profile.h"
 
 namespace etalon {
@@ -23,9 +24,8 @@ std::vector<BitPlane> blurs(int threads) {
 
 // Six planes.
 void addCube(std::vector<BitPlane>& planes, const std::string& name, const CubeMap<float>& cube) {
-    static constexpr const char* kFaceNames[] = {"+x", "-x", "+y", "-y", "+z", "-z"};
     for (size_t f = 0; f < cube.faces.size(); f++)
-        planes.push_back(planeOf(name + kFaceNames[f], cube.faces[f]));
+        planes.push_back(planeOf(name + std::string(nameOf(static_cast<CubeFace>(f))), cube.faces[f]));
 }
 
 std::vector<BitPlane> cubesFromSky(int threads) {

@@ -58,8 +58,8 @@ CubeRender renderMirrorCube(const SurfaceScene& scene, const std::vector<PlacedM
 
 std::vector<BitPlane> shadeScene(const Profile& profile, const ViewSize& size, bool hasComponents,
                                  const RasterOptions& options) {
-    static constexpr const char* kOutputNames[kShadeOutputs] = {
-        "ambient", "diffuse", "specular", "mirror", "background", "beauty", "normals", "distance"};
+    static constexpr const char* kOutputNames[] = {"ambient",    "diffuse", "specular", "mirror",
+                                                   "background", "beauty",  "normals",  "distance"};
     const SurfaceScene scene = demoScene();
     const auto placed = placeMeshes(scene, profile.vertex, options.threads);
     const CubeMap<float> environment = environmentCube(scene.environment, profile, options.threads);
@@ -70,11 +70,12 @@ std::vector<BitPlane> shadeScene(const Profile& profile, const ViewSize& size, b
     ShadeJob job = shadeJobOf(visible, scene, placed, view, profile, options);
     job.environmentCube = &environment;
     job.sceneCubes[kSceneMirror] = &mirrored.radiance;
-    for (int o = 0; o < kShadeOutputs; o++) job.request.wanted[o] = hasComponents || o >= kRadianceComponents;
+    for (size_t o = 0; o < std::size(kOutputNames); o++)
+        job.request.wanted[o] = hasComponents || o >= kRadianceComponents;
     const ShadedImages images = shade(job);
 
     std::vector<BitPlane> planes = {planeOf("depth", visible.target.depth)};
-    for (size_t o = 0; o < kShadeOutputs; o++)
+    for (size_t o = 0; o < std::size(kOutputNames); o++)
         if (job.request.wanted[o]) planes.push_back(planeOf(kOutputNames[o], images.images[o]));
     return planes;
 }

@@ -20,6 +20,7 @@
 #include "probes/light_filter.h"
 #include "probes/light_passes.h"
 #include "probes/median_cut.h"
+#include "probes/names.h"
 #include "probes/texel_grid.h"
 
 namespace etalon::experiments {
@@ -68,16 +69,6 @@ std::vector<glm::dvec3> diffuseTruth(const Probe& probe, const ProbeShape& shape
 std::vector<glm::dvec3> diffuseOfLights(const Probe& probe, const MedianCut& cut, const ProbeShape& shape) {
     return valuesOf(passesIn<LightPasses>(Arithmetic::fp64)
                         ->irradianceOfLights(medianCutLights(probe, cut).lights, shape, 0)[0]);
-}
-
-const char* nameOf(LongerSide side) { return side == LongerSide::angle ? "angle" : "arc"; }
-const char* nameOf(LightPlace place) {
-    constexpr const char* kNames[] = {"centre", "centroid", "median", "centroid twice"};
-    return kNames[static_cast<size_t>(place)];
-}
-const char* nameOf(TexelWeight weight) {
-    constexpr const char* kNames[] = {"exact", "midpoint", "edge", "uniform"};
-    return kNames[static_cast<size_t>(weight)];
 }
 
 // ---- Table 7.1: unit radiance.

@@ -7,6 +7,7 @@
 
 #include "files/image_io.h"
 #include "numeric/text.h"
+#include "probes/names.h"
 #include "probes/texel_grid.h"
 
 namespace etalon {
@@ -49,12 +50,6 @@ const std::string* findText(const Frame& frame, const std::string& key) {
     return found == frame.metadata.end() ? nullptr : &found->second;
 }
 
-std::optional<Mapping> mappingOfName(std::string_view name) {
-    for (size_t i = 0; i < std::size(kMappingNames); i++)
-        if (kMappingNames[i] == name) return static_cast<Mapping>(i);
-    return std::nullopt;
-}
-
 struct FileShape {
     Mapping mapping;
     CubeLayout layout = CubeLayout::openExrStrip;
@@ -73,7 +68,7 @@ FileShape shapeOf(const Frame& frame, const ProbeFileOptions& options, const std
     if (!mapping && options.layout) mapping = Mapping::cube;
     if (!mapping) {
         if (const std::string* name = findText(frame, kMappingKey)) {
-            mapping = mappingOfName(*name);
+            mapping = memberOf<Mapping>(*name);
             if (!mapping) fail(path, formatText("attribute {} is unknown", kMappingKey));
         }
     }
@@ -94,7 +89,7 @@ FileShape shapeOf(const Frame& frame, const ProbeFileOptions& options, const std
     if (*mapping != Mapping::cube) {
         if (!isLatLong(*mapping) && frame.width != frame.height)
             fail(path, formatText("{}x{} is not square, as the mapping {} is", frame.width, frame.height,
-                                  kMappingNames[static_cast<size_t>(*mapping)]));
+                                  nameOf(*mapping)));
         return shape;
     }
     if (!byShape)
@@ -206,7 +201,7 @@ Frame frameOfProbe(const Probe& probe, CubeLayout layout) {
     }
     const glm::dmat3& m = probe.rotation;
     const glm::dvec3& p = probe.position_m;
-    frame.metadata[kMappingKey] = kMappingNames[static_cast<size_t>(probe.shape.mapping)];
+    frame.metadata[kMappingKey] = nameOf(probe.shape.mapping);
     frame.metadata[kRotationKey] = formatText("{} {} {} {} {} {} {} {} {}", m[0][0], m[1][0], m[2][0],
                                               m[0][1], m[1][1], m[2][1], m[0][2], m[1][2], m[2][2]);
     frame.metadata[kPositionKey] = formatText("{} {} {}", p.x, p.y, p.z);

@@ -4,8 +4,8 @@
 // attribute, or the shape of the image: 2:1 is a lat-long map, 1:6 a strip of cube faces in OpenEXR's layout,
 // 4:3 and 3:4 crosses. A square image may be an angular map, a mirror ball or octahedral, and must be told.
 //
-// Attributes of EXR files that Etalon writes, besides envmap: "etalon.mapping" (latlong, cube, angular,
-// mirror_ball, octahedral, latlong_pedersen), "etalon.ballDistance" (radii, or inf), "etalon.rotation" (nine
+// Attributes of EXR files that Etalon writes, besides envmap: "etalon.mapping" (a name of probes/names.h),
+// "etalon.ballDistance" (radii, or inf), "etalon.rotation" (nine
 // numbers, the rows of the matrix from the probe's frame to the world), "etalon.position" (metres). Channels
 // "distance" (metres) and "valid" (0 or 1) belong to the probe where they are present.
 #pragma once
@@ -20,10 +20,6 @@
 #include "probes/probe.h"
 
 namespace etalon {
-
-// In the order of Mapping.
-inline constexpr const char* kMappingNames[] = {"latlong",     "cube",       "angular",
-                                                "mirror_ball", "octahedral", "latlong_pedersen"};
 
 // What the caller knows about a file; what is not given is taken from the file.
 struct ProbeFileOptions {

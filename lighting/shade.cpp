@@ -12,8 +12,6 @@
 namespace etalon {
 namespace {
 
-int channelsOf(ShadeOutput output) { return output == ShadeOutput::distance ? 1 : 3; }
-
 void checkJob(const ShadeJob& job) {
     ETALON_CHECK(job.scene && job.view && job.target && job.placed && job.profile && job.environment &&
                      job.sources.lights && job.sources.environment,
@@ -67,15 +65,23 @@ void forEachTile(const ShadeJob& job, const Visit& visit) {
 
 }  // namespace
 
+int channelsOf(const ShadeJob& job, ShadeOutput output) {
+    if (output == ShadeOutput::shadows) return static_cast<int>(job.shadowLights.size());
+    const bool isNumber =
+        output == ShadeOutput::distance || output == ShadeOutput::depth || output == ShadeOutput::open;
+    return isNumber ? 1 : 3;
+}
+
 ShadedImages shade(const ShadeJob& job, ShadeStatistics* statistics) {
     checkJob(job);
     ETALON_CHECK(!job.occlusion || job.occlusion->size() == tilesOf(job).count(),
                  "occlusion of {} tiles of {}", job.occlusion->size(), tilesOf(job).count());
     const int width = job.target->width(), height = job.target->height();
     ShadedImages images;
-    for (size_t o = 0; o < kShadeOutputs; o++)
-        if (job.request.wanted[o])
-            images.images[o] = Image<float>(width, height, channelsOf(static_cast<ShadeOutput>(o)));
+    for (size_t o = 0; o < kShadeOutputs; o++) {
+        const int channels = channelsOf(job, static_cast<ShadeOutput>(o));
+        if (job.request.wanted[o] && channels > 0) images.images[o] = Image<float>(width, height, channels);
+    }
 
     std::mutex mutex;
     ShadeStatistics total;

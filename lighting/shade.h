@@ -28,10 +28,21 @@ enum class ShadeOutput : uint8_t {
     background,
     beauty,
     normals,
-    distance
+    distance,
+    depth,
+    open,
+    bentNormals,
+    irradiance,
+    environment,
+    shadows
 };
-inline constexpr int kShadeOutputs = 8;
+inline constexpr int kShadeOutputs = 14;
 inline constexpr int kRadianceComponents = 5;
+
+// Whether a pixel is the mean of its samples; else it is what sample 0 sees.
+inline bool isResolved(ShadeOutput output) {
+    return output <= ShadeOutput::beauty || output == ShadeOutput::open || output >= ShadeOutput::irradiance;
+}
 
 // Which images to make.
 struct ShadeRequest {
@@ -49,8 +60,17 @@ struct ShadeRequest {
 };
 
 // The images asked for; the others are empty. Radiance images have three channels, resolved over the samples.
-// normals (three channels, unit length, world space, towards the viewer; 0 where nothing is visible) and
-// distance (metres from the eye along the ray; infinity where nothing is visible) are those of sample 0.
+//   normals      three channels, unit length, world space, towards the viewer; 0 where nothing is visible
+//   distance     metres from the eye along the ray; infinity where nothing is visible
+//   depth        metres from the eye along the optical axis; infinity where nothing is visible
+//   open         the part of its surroundings that a surface sees (Occlusion::open); 1 where nothing is visible
+//   bentNormals  three channels, Occlusion::bentNormal; 0 where nothing is visible
+//   irradiance   three channels: what a surface receives from the environment, W/m^2
+//   environment  three channels: what of that it reflects diffusely, radiance
+//   shadows      a channel for each of ShadeJob::shadowLights: the part of the light that reaches the surface; 1
+//                where nothing is visible, and on surfaces that reflect no lights
+// Which of them are those of sample 0: isResolved(). Those from `open` on are found at fragments, also where these
+// are lit by their vertices.
 struct ShadedImages {
     Image<float> images[kShadeOutputs];
 
@@ -80,9 +100,12 @@ struct ShadeJob {
     // For each instance what its vertices reflect, to be interpolated (lighting/vertex_lighting.h); null:
     // every fragment is lit by itself.
     const std::vector<VertexRadiance>* vertexRadiance = nullptr;
-    // What the fragments see of their surroundings; null: everything. For each tile, row by row. Not with
-    // vertexRadiance, which has its own.
+    // What the fragments see of their surroundings; null: everything. For each tile, row by row. With
+    // vertexRadiance, which has its own, for the images that are found at fragments all the same.
     const TileOcclusion* occlusion = nullptr;
+    // Numbers of lights: those that the channels of the image `shadows` stand for; those of the environment, which
+    // `irradiance` and `environment` count beside sources.environment.
+    std::vector<size_t> shadowLights, environmentLights;
     ShadeRequest request;
     // Evaluate also those parts of materials that reflect nothing; as far as no product overflows, this
     // changes no bit.
@@ -92,6 +115,9 @@ struct ShadeJob {
     // Called with the part of the tiles that is done, by the thread that has done one, one call at a time.
     std::function<void(double)> progress;
 };
+
+// Of the image of an output.
+int channelsOf(const ShadeJob& job, ShadeOutput output);
 
 // Shades each visible fragment once, in the profile's fragment arithmetic.
 ShadedImages shade(const ShadeJob& job, ShadeStatistics* statistics = nullptr);

@@ -5,8 +5,10 @@
 #include <array>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <vector>
 
+#include "lighting/environment_irradiance.h"
 #include "lighting/shading_kernels.h"
 #include "lighting/shading_passes.h"
 #include "lighting/surface_lighting.h"
@@ -74,7 +76,7 @@ class TileShaderOf final : public TileShader {
     void sortIntoBuckets();
     Group groupOf(const Bucket& bucket, size_t first, int count) const;
     struct Parts : Lighting::SurfaceParts {
-        bool distance, needNormal, needEye, needPlace;
+        bool distance, seen, needNormal, needEye, needPlace;
     };
     Parts partsOf(const SurfaceMaterial& material) const;
     static void setItems(const Group& group);
@@ -91,7 +93,12 @@ class TileShaderOf final : public TileShader {
     vec3 mirrored(const Bucket& bucket, const vec3& n, const vec3& toEye);
     static std::vector<bool> castsOf(const ShadeJob& job);
     static typename K::EnvironmentView environmentOf(const ShadeJob& job);
+    bool wantsSeen() const;
+    void putSeen(const Bucket& bucket, const Group& group, const Surface& surface,
+                 const Visibility& visibility);
+    Surroundings fragmentSurroundings(const Group& group) const;
     void put(ShadeOutput output, const Group& group, vec3 value);
+    void putNumber(Stored* to, const Group& group, const T& value);
     void resolve(ShadeOutput output, const PixelRectangle& rectangle, Image<float>& image);
     void copyFirstSample(ShadeOutput output, const PixelRectangle& rectangle, Image<float>& image);
     // The values of a channel, one per fragment.
@@ -105,7 +112,9 @@ class TileShaderOf final : public TileShader {
     Lighting lighting_;
     SamplerSettings sampler_;
     typename K::EnvironmentView environment_;
-    vec3 ambient_, eye_;
+    // Where an image shows what the environment gives.
+    std::optional<EnvironmentIrradiance<T>> received_;
+    vec3 ambient_, eye_, forward_;
     bool hasOcclusion_ = false;                          // else all is open
     const std::vector<Occlusion>* occlusion_ = nullptr;  // of the tile's fragments, where these have it
     // A chunk: its groups, and the visibility of its points for each light.
@@ -131,23 +140,32 @@ TileShaderOf<T>::TileShaderOf(const ShadeJob& job)
       environment_(environmentOf(job)) {
     ambient_ = constant(job.scene->ambient);
     eye_ = constant(job.view->eye);
+    forward_ = constant(job.view->forward);
     buckets_.push_back(Bucket{nullptr, nullptr, kNoTriangle, {}, {}, 0});
-    hasOcclusion_ = job.occlusion || (job.vertexRadiance &&
-                                      std::ranges::any_of(*job.vertexRadiance, [](const VertexRadiance& of) {
-                                          return !of.sides[0].open.empty();
-                                      }));
+    hasOcclusion_ =
+        job.vertexRadiance
+            ? std::ranges::any_of(*job.vertexRadiance,
+                                  [](const VertexRadiance& of) { return !of.sides[0].open.empty(); })
+            : job.occlusion != nullptr;
+    if (job.request[ShadeOutput::irradiance] || job.request[ShadeOutput::environment])
+        received_.emplace(*job.sources.environment, *job.sources.lights, job.environmentLights, sampler_);
 }
 
+// Whose visibility something asks for.
 template <class T>
 std::vector<bool> TileShaderOf<T>::castsOf(const ShadeJob& job) {
-    std::vector<bool> casts;
+    if (!job.visibility) return {};
     const ShadeRequest& request = job.request;
-    if (!job.visibility || job.vertexRadiance ||
-        !(request.needs(ShadeOutput::diffuse) || request.needs(ShadeOutput::specular)))
-        return casts;
     const LightSources& sources = job.sources;
-    for (size_t l = 0; l < sources.lights->size(); l++)
-        casts.push_back((!sources.shows || (*sources.shows)[l]) && job.visibility->casts(l));
+    const bool isLit =
+        !job.vertexRadiance && (request.needs(ShadeOutput::diffuse) || request.needs(ShadeOutput::specular));
+    std::vector<bool> casts(sources.lights->size(), false);
+    for (size_t l = 0; l < casts.size(); l++) casts[l] = isLit && (!sources.shows || (*sources.shows)[l]);
+    if (request[ShadeOutput::shadows])
+        for (const size_t l : job.shadowLights) casts[l] = true;
+    if (request[ShadeOutput::irradiance] || request[ShadeOutput::environment])
+        for (const size_t l : job.environmentLights) casts[l] = true;
+    for (size_t l = 0; l < casts.size(); l++) casts[l] = casts[l] && job.visibility->casts(l);
     if (std::find(casts.begin(), casts.end(), true) == casts.end()) casts.clear();
     return casts;
 }
@@ -188,7 +206,9 @@ void TileShaderOf<T>::run(size_t number, const PixelRectangle& rectangle, Shaded
     collect(rectangle, !casts_.empty());
     occlusion_ = job_.occlusion ? &(*job_.occlusion)[number] : nullptr;
     for (size_t o = 0; o < kShadeOutputs; o++)
-        if (job_.request.wanted[o]) values_[o].assign(3 * tile_.size(), Stored(0));
+        if (job_.request.wanted[o])
+            values_[o].assign(std::max(3, channelsOf(job_, static_cast<ShadeOutput>(o))) * tile_.size(),
+                              Stored(0));
     for (size_t b = 0; b < buckets_.size(); b++) {
         const std::vector<uint32_t>& list = buckets_[b].fragments;
         if (b > 0 && !casts_.empty())
@@ -202,8 +222,8 @@ void TileShaderOf<T>::run(size_t number, const PixelRectangle& rectangle, Shaded
         (b == 0 ? statistics.backgroundFragments : statistics.surfaceFragments) += list.size();
     }
     for (size_t o = 0; o < kShadeOutputs; o++) {
-        if (!job_.request.wanted[o]) continue;
-        if (o <= static_cast<size_t>(ShadeOutput::beauty) && job_.target->format.samples > 1)
+        if (images.images[o].empty()) continue;
+        if (isResolved(static_cast<ShadeOutput>(o)) && job_.target->format.samples > 1)
             resolve(static_cast<ShadeOutput>(o), rectangle, images.images[o]);
         else
             copyFirstSample(static_cast<ShadeOutput>(o), rectangle, images.images[o]);
@@ -358,6 +378,11 @@ template <class T>
 typename TileShaderOf<T>::Surroundings TileShaderOf<T>::surroundingsOf(const Weights& w,
                                                                        const Group& group) const {
     if (job_.vertexRadiance) return {triangles_.open(w, group.lanes), constant(glm::dvec3(0))};
+    return fragmentSurroundings(group);
+}
+// What occlusion_ has of them.
+template <class T>
+typename TileShaderOf<T>::Surroundings TileShaderOf<T>::fragmentSurroundings(const Group& group) const {
     const auto load = [&](const auto& valueOf) {
         return Number<T>::generate([&](int i) {
             const size_t last = group.fragments.size() - 1;
@@ -391,7 +416,13 @@ void TileShaderOf<T>::setPoints(const Group& group, const Surface& surface, size
 // The environment in the direction of the pixel's centre.
 template <class T>
 void TileShaderOf<T>::shadeBackground(const Group& group) {
-    put(ShadeOutput::distance, group, constant(glm::dvec3(std::numeric_limits<double>::infinity())));
+    const vec3 infinity = constant(glm::dvec3(std::numeric_limits<double>::infinity()));
+    put(ShadeOutput::distance, group, infinity);
+    put(ShadeOutput::depth, group, infinity);
+    put(ShadeOutput::open, group, constant(glm::dvec3(1)));
+    if (job_.request[ShadeOutput::shadows])
+        for (size_t c = 0; c < job_.shadowLights.size(); c++)
+            putNumber(values(ShadeOutput::shadows, static_cast<int>(c)), group, T(1.0));
     if (!job_.request.needs(ShadeOutput::background)) return;
     const View& view = *job_.view;
     const int n = job_.target->format.subpixelBits;
@@ -435,8 +466,10 @@ typename TileShaderOf<T>::Parts TileShaderOf<T>::partsOf(const SurfaceMaterial& 
         (every ? hasMirrorPart(material) : mirrors(material)) && request.needs(ShadeOutput::mirror);
     parts.isOccluded = hasOcclusion_ && (parts.ambient || parts.diffuse);
     parts.isPerVertex = job_.vertexRadiance != nullptr;
-    parts.distance = request[ShadeOutput::distance];
-    parts.needNormal = parts.diffuse || parts.specular || parts.mirror || request[ShadeOutput::normals];
+    parts.distance = request[ShadeOutput::distance] || request[ShadeOutput::depth];
+    parts.seen = wantsSeen();
+    parts.needNormal =
+        parts.diffuse || parts.specular || parts.mirror || parts.seen || request[ShadeOutput::normals];
     parts.needEye = parts.specular || parts.mirror || parts.distance;
     parts.needPlace = parts.diffuse && lighting_.hasPlaces();
     return parts;
@@ -450,8 +483,14 @@ void TileShaderOf<T>::shadeSurface(const Bucket& bucket, const Group& group, con
     const Weights& w = interpolated.w;
     typename K::SurfacePoint point{interpolated.position, interpolated.normal, none};
     if (parts.needNormal) put(ShadeOutput::normals, group, point.normal);
-    if (parts.distance)
-        put(ShadeOutput::distance, group, vec3(kernels_.distanceToEye(eye_, point.position), T(0.0), T(0.0)));
+    if (parts.distance) {
+        const auto put1 = [&](ShadeOutput output, const T& value) {
+            put(output, group, vec3(value, T(0.0), T(0.0)));
+        };
+        put1(ShadeOutput::distance, kernels_.distanceToEye(eye_, point.position));
+        put1(ShadeOutput::depth, kernels_.viewDepth(point.position, eye_, forward_));
+    }
+    if (parts.seen) putSeen(bucket, group, interpolated, visibility);
     if (parts.needEye) point.toEye = kernels_.directionToEye(eye_, point.position);
 
     const vec3 surface = parts.ambient || parts.diffuse ? albedo(bucket, w, group) : none;
@@ -491,21 +530,58 @@ typename TileShaderOf<T>::vec3 TileShaderOf<T>::mirrored(const Bucket& bucket, c
     return kernels_.mirroredRadiance(environment_, shows, texture, sampling, n, toEye);
 }
 
+template <class T>
+bool TileShaderOf<T>::wantsSeen() const {
+    const ShadeRequest& request = job_.request;
+    return request[ShadeOutput::open] || request[ShadeOutput::bentNormals] ||
+           request[ShadeOutput::irradiance] || request[ShadeOutput::environment] ||
+           request[ShadeOutput::shadows];
+}
+
+// What reaches a group's fragments, for the images that show it: of lights, of their surroundings, of the
+// environment.
+template <class T>
+void TileShaderOf<T>::putSeen(const Bucket& bucket, const Group& group, const Surface& surface,
+                              const Visibility& visibility) {
+    const SurfaceMaterial& material = *bucket.material;
+    // Shadows are made for surfaces that reflect lights.
+    const bool hasShadows = !casts_.empty() && (reflectsDiffusely(material) || reflectsSpecularly(material));
+    const auto reaching = [&](size_t light) {
+        return hasShadows && casts_[light] ? kernels_.visibilityOf(visibility, static_cast<int>(light))
+                                           : T(1.0);
+    };
+    if (job_.request[ShadeOutput::shadows])
+        for (size_t c = 0; c < job_.shadowLights.size(); c++)
+            putNumber(values(ShadeOutput::shadows, static_cast<int>(c)), group,
+                      reaching(job_.shadowLights[c]));
+    Surroundings around{T(1.0), surface.normal};
+    if (occlusion_) around = fragmentSurroundings(group);
+    put(ShadeOutput::open, group, vec3(around.open, T(0.0), T(0.0)));
+    put(ShadeOutput::bentNormals, group, around.bentNormal);
+    if (!received_) return;
+    const vec3 irradiance = received_->at(surface.normal, around.open, around.bentNormal, reaching);
+    put(ShadeOutput::irradiance, group, irradiance);
+    if (hasDiffusePart(material))
+        put(ShadeOutput::environment, group,
+            kernels_.lambertOfIrradiance(irradiance, albedo(bucket, surface.w, group)));
+}
+
 // Keeps the group's values if the output is wanted.
 template <class T>
 void TileShaderOf<T>::put(ShadeOutput output, const Group& group, vec3 v) {
     if (!job_.request[output]) return;
-    const auto active = static_cast<int>(group.fragments.size());
-    for (int c = 0; c < 3; c++) {
-        Stored* to = values(output, c);
-        if (group.isRun()) {
-            Number<T>::store(v[c], to + group.fragments.front(), active);
-            continue;
-        }
-        std::array<Stored, N> lanes;
-        Number<T>::store(v[c], lanes.data(), N);
-        for (size_t i = 0; i < group.fragments.size(); i++) to[group.fragments[i]] = lanes[i];
+    for (int c = 0; c < 3; c++) putNumber(values(output, c), group, v[c]);
+}
+// Keeps the group's values of a channel.
+template <class T>
+void TileShaderOf<T>::putNumber(Stored* to, const Group& group, const T& value) {
+    if (group.isRun()) {
+        Number<T>::store(value, to + group.fragments.front(), static_cast<int>(group.fragments.size()));
+        return;
     }
+    std::array<Stored, N> lanes;
+    Number<T>::store(value, lanes.data(), N);
+    for (size_t i = 0; i < group.fragments.size(); i++) to[group.fragments[i]] = lanes[i];
 }
 
 // Means over the samples of each pixel, a row of the rectangle at a time.
@@ -521,7 +597,7 @@ void TileShaderOf<T>::resolve(ShadeOutput output, const PixelRectangle& rectangl
             setItemsOf<T, N>([&](int i) {
                 return itemOfPlace(rectangle.x0 + static_cast<int>(first) + i, rectangle.y0 + row);
             });
-            for (int c = 0; c < 3; c++) {
+            for (int c = 0; c < image.channels(); c++) {
                 const Stored* from = values(output, c);
                 const auto sample = [&](size_t s) {
                     return Number<T>::generate([&](int i) {

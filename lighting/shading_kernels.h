@@ -32,6 +32,7 @@ struct ShadingKernels {
 #include "lighting/kernels/surface_point.glsl"
 #include "lighting/kernels/reflectances.glsl"
 #include "lighting/kernels/surface_light.glsl"
+#include "lighting/kernels/view_depth.glsl"
 };
 
 }  // namespace etalon

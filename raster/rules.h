@@ -3,6 +3,6 @@
 
 namespace etalon {
 
-inline constexpr int kRulesVersion = 2;
+inline constexpr int kRulesVersion = 3;
 
 }  // namespace etalon

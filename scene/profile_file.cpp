@@ -1,35 +1,18 @@
 #include "scene/profile_file.h"
 
-#include <algorithm>
-#include <array>
-
 #include "numeric/check.h"
+#include "numeric/format_names.h"
 #include "numeric/text.h"
+#include "raster/names.h"
 #include "scene/toml_reader.h"
 
 namespace etalon {
 namespace {
 
-constexpr std::array<std::string_view, 6> kRoundingNames = {"nearest-even", "toward-zero", "nearest-away",
-                                                            "up",           "down",        "stochastic"};
-constexpr std::array<std::string_view, 2> kSubnormalNames = {"keep", "flush"};
-constexpr std::array<std::string_view, 2> kOverflowNames = {"infinity", "saturate"};
-constexpr std::array<std::string_view, 2> kDivisionNames = {"exact", "reciprocal"};
-constexpr std::array<std::string_view, 2> kPowerNames = {"exact", "exp2log2"};
-constexpr std::array<std::string_view, 2> kRasterRealNames = {"fp32", "fp64"};
-constexpr std::array<std::string_view, 3> kDepthFormatNames = {"d16", "d24", "d32f"};
-constexpr std::array<std::string_view, 2> kDepthRoundingNames = {"exact", "driver"};
-constexpr std::array<std::string_view, 2> kFilterNames = {"nearest", "bilinear"};
-static_assert(static_cast<size_t>(Rounding::stochastic) + 1 == kRoundingNames.size());
-static_assert(static_cast<size_t>(DepthFormat::d32f) + 1 == kDepthFormatNames.size());
-
 // Replaces the value if the key is there.
-template <class E>
-void read(const TableReader& reader, std::string_view key, std::span<const std::string_view> names,
-          E& value) {
-    if (!reader.has(key)) return;
-    const std::string given = reader.choice(key, names);
-    value = static_cast<E>(std::find(names.begin(), names.end(), given) - names.begin());
+template <Named E>
+void read(const TableReader& reader, std::string_view key, E& value) {
+    value = reader.member(key, value);
 }
 void read(const TableReader& reader, std::string_view key, int lo, int hi, int& value) {
     if (reader.has(key)) value = static_cast<int>(reader.integer(key, lo, hi));
@@ -50,11 +33,11 @@ Format readFormat(const std::string& file, const TomlValue& value, Format format
     read(reader, "significand_bits", 2, kMaxSignificandBits, format.significandBits);
     read(reader, "min_exponent", -kMaxFormatExponent, 0, format.minExponent);
     read(reader, "max_exponent", 0, kMaxFormatExponent, format.maxExponent);
-    read(reader, "rounding", kRoundingNames, format.rounding);
-    read(reader, "subnormals", kSubnormalNames, format.subnormals);
-    read(reader, "overflow", kOverflowNames, format.overflow);
-    read(reader, "division", kDivisionNames, format.division);
-    read(reader, "power", kPowerNames, format.power);
+    read(reader, "rounding", format.rounding);
+    read(reader, "subnormals", format.subnormals);
+    read(reader, "overflow", format.overflow);
+    read(reader, "division", format.division);
+    read(reader, "power", format.power);
     if (format.rounding != Rounding::stochastic)
         reader.forbid("seed", "needs rounding = \"stochastic\" beside it");
     if (reader.has("seed")) format.seed = static_cast<uint64_t>(reader.integer("seed", 0, INT64_MAX));
@@ -89,16 +72,6 @@ Arithmetic readFragment(const TableReader& reader, const Arithmetic& base) {
 
 }  // namespace
 
-std::span<const std::string_view> roundingNames() { return kRoundingNames; }
-std::span<const std::string_view> subnormalNames() { return kSubnormalNames; }
-std::span<const std::string_view> overflowNames() { return kOverflowNames; }
-std::span<const std::string_view> divisionNames() { return kDivisionNames; }
-std::span<const std::string_view> powerNames() { return kPowerNames; }
-std::span<const std::string_view> rasterRealNames() { return kRasterRealNames; }
-std::span<const std::string_view> depthFormatNames() { return kDepthFormatNames; }
-std::span<const std::string_view> depthRoundingNames() { return kDepthRoundingNames; }
-std::span<const std::string_view> filterNames() { return kFilterNames; }
-
 bool isProfileFile(std::string_view nameOrFile) { return nameOrFile.ends_with(".toml"); }
 
 Profile readProfileFile(const std::filesystem::path& path) {
@@ -112,9 +85,9 @@ Profile readProfileFile(const std::filesystem::path& path) {
     profile.name = path.filename().string();
     profile.meaning = formatText("composed in a file from {}", base);
     if (reader.has("fragment")) profile.fragment = readFragment(reader, profile.fragment);
-    read(reader, "vertex", kRasterRealNames, profile.vertex);
-    read(reader, "depth", kDepthFormatNames, profile.depth);
-    read(reader, "depth_rounding", kDepthRoundingNames, profile.depthRounding);
+    read(reader, "vertex", profile.vertex);
+    read(reader, "depth", profile.depth);
+    read(reader, "depth_rounding", profile.depthRounding);
     read(reader, "subpixel_bits", 4, 8, profile.subpixelBits);
     if (reader.has("texture_fraction_bits")) {
         constexpr std::string_view kExact[] = {"exact"};
@@ -125,7 +98,7 @@ Profile readProfileFile(const std::filesystem::path& path) {
             read(reader, "texture_fraction_bits", 0, kMaxFractionBits, profile.textureFractionBits);
         }
     }
-    read(reader, "texture_filter", kFilterNames, profile.textureFilter);
+    read(reader, "texture_filter", profile.textureFilter);
     return profile;
 }
 

@@ -2,25 +2,12 @@
 #pragma once
 
 #include <filesystem>
-#include <span>
 #include <string>
 #include <string_view>
 
 #include "raster/profile.h"
 
 namespace etalon {
-
-// The names that profile files, and texts about profiles, have for what a profile may be; in the order of the
-// enumerations.
-std::span<const std::string_view> roundingNames();
-std::span<const std::string_view> subnormalNames();
-std::span<const std::string_view> overflowNames();
-std::span<const std::string_view> divisionNames();
-std::span<const std::string_view> powerNames();
-std::span<const std::string_view> rasterRealNames();
-std::span<const std::string_view> depthFormatNames();
-std::span<const std::string_view> depthRoundingNames();
-std::span<const std::string_view> filterNames();
 
 // True for what stands for a file where a profile is asked for, and not for a name: it ends in ".toml".
 bool isProfileFile(std::string_view nameOrFile);

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <string_view>
 
+#include "numeric/format_names.h"
 #include "numeric/text.h"
-#include "scene/profile_file.h"
+#include "raster/names.h"
 
 namespace etalon {
 namespace {
@@ -106,11 +107,6 @@ const Note* noteOf(std::string_view profile, std::string_view key) {
     return best;
 }
 
-template <class E>
-std::string nameOf(std::span<const std::string_view> names, E value) {
-    return std::string(names[static_cast<size_t>(value)]);
-}
-
 }  // namespace
 
 std::vector<ProfileField> profileFields(const Profile& profile) {
@@ -124,6 +120,7 @@ std::vector<ProfileField> profileFields(const Profile& profile) {
         fields.push_back(std::move(field));
     };
     const auto addNumber = [&](const char* key, auto value) { add(key, formatText("{}", value), true); };
+    const auto addName = [&](const char* key, auto value) { add(key, std::string(nameOf(value))); };
     if (!profile.fragment.format) {
         add("fragment", arithmeticName(profile.fragment));
     } else {
@@ -131,22 +128,22 @@ std::vector<ProfileField> profileFields(const Profile& profile) {
         addNumber("fragment.significand_bits", f.significandBits);
         addNumber("fragment.min_exponent", f.minExponent);
         addNumber("fragment.max_exponent", f.maxExponent);
-        add("fragment.rounding", nameOf(roundingNames(), f.rounding));
-        add("fragment.subnormals", nameOf(subnormalNames(), f.subnormals));
-        add("fragment.overflow", nameOf(overflowNames(), f.overflow));
-        add("fragment.division", nameOf(divisionNames(), f.division));
-        add("fragment.power", nameOf(powerNames(), f.power));
+        addName("fragment.rounding", f.rounding);
+        addName("fragment.subnormals", f.subnormals);
+        addName("fragment.overflow", f.overflow);
+        addName("fragment.division", f.division);
+        addName("fragment.power", f.power);
         if (f.rounding == Rounding::stochastic) addNumber("fragment.seed", f.seed);
     }
-    add("vertex", nameOf(rasterRealNames(), profile.vertex));
-    add("depth", nameOf(depthFormatNames(), profile.depth));
-    add("depth_rounding", nameOf(depthRoundingNames(), profile.depthRounding));
+    addName("vertex", profile.vertex);
+    addName("depth", profile.depth);
+    addName("depth_rounding", profile.depthRounding);
     addNumber("subpixel_bits", profile.subpixelBits);
     if (profile.textureFractionBits == kExactFraction)
         add("texture_fraction_bits", "exact");
     else
         addNumber("texture_fraction_bits", profile.textureFractionBits);
-    add("texture_filter", nameOf(filterNames(), profile.textureFilter));
+    addName("texture_filter", profile.textureFilter);
     return fields;
 }
 

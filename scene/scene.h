@@ -14,10 +14,11 @@
 #include <string_view>
 #include <vector>
 
-#include "lighting/surface_scene.h"
+#include "lighting/names.h"
+#include "numeric/names.h"
 #include "raster/profile.h"
 #include "shadows/planar_lights.h"
-#include "shadows/shadow_map.h"
+#include "shadows/names.h"
 
 namespace etalon {
 
@@ -50,12 +51,6 @@ inline constexpr double kSoftRadius_texels = 32;
 // Most samples of a light with planar shadows in a scene file.
 inline constexpr int kMaxSceneLightSamples = 4096;
 
-// Names that a scene file may use (docs/scene_format.md says what each means).
-inline constexpr std::array<std::string_view, 11> kOutputNames{"beauty", "depth",      "distance", "normals",
-                                                               "ids",    "coverage",   "diffuse",  "specular",
-                                                               "mirror", "background", "ambient"};
-inline constexpr std::array<std::string_view, 3> kToneMapNames{"linear", "reinhard", "filmic"};
-
 // A pinhole camera, in pixels: a point (x, y, -z) of the camera's frame, z > 0, falls on the image at
 // (cx + fx x / z, cy - fy y / z); pixel centres at +0.5, row 0 on top. fx, fy > 0.
 struct Intrinsics {
@@ -72,18 +67,30 @@ struct Camera {
 
 // How a light's shadows are made, if at all. The seeds are the scene's.
 enum class ShadowMethod : uint8_t { none, map, volume, planar };
+template <>
+inline constexpr auto kNames<ShadowMethod> = std::to_array<std::string_view>({"none", "map", "volume",
+                                                                              "planar"});
+static_assert(isLastName(ShadowMethod::planar));
 struct LightShadow {
     ShadowMethod method = ShadowMethod::none;
     ShadowMapSettings map = defaultShadowMap();  // of map
     PlanarLightSettings planar;                  // of planar
 };
 
+// What the plan calls the pass that makes a light's shadows.
+constexpr std::string_view passNameOf(ShadowMethod method) {
+    constexpr std::string_view kPassNames[] = {"", "shadow map", "shadow volumes", "planar shadows"};
+    return kPassNames[static_cast<size_t>(method)];
+}
+
 enum class EnvironmentKind : uint8_t { none, constant, file };
 
 // How the environment lights surfaces, besides being seen and mirrored (docs/scene_format.md).
 enum class EnvironmentLightMethod : uint8_t { none, lights, dominant, harmonics, exact, map, blurred };
-inline constexpr std::string_view kEnvironmentLightMethods[] = {"none",  "lights", "dominant", "harmonics",
-                                                                "exact", "map",    "blurred"};
+template <>
+inline constexpr auto kNames<EnvironmentLightMethod> =
+    std::to_array<std::string_view>({"none", "lights", "dominant", "harmonics", "exact", "map", "blurred"});
+static_assert(isLastName(EnvironmentLightMethod::blurred));
 // Most lights of a median cut, largest edge of a map of irradiance.
 inline constexpr int kMaxEnvironmentLights = 65536, kMaxLightMapSize = 512;
 // Most directions of ambient occlusion, and largest edge of their depth maps.
@@ -168,9 +175,9 @@ struct SceneLight {
 
 struct Output {
     int line = 0;
-    std::vector<std::string> images;  // of kOutputNames, each once, at least one
-    std::string toneMap = "linear";   // of kToneMapNames; for PNG
-    double exposure = 0;              // stops; for PNG
+    std::vector<std::string> images;    // of outputNames() (scene/outputs.h), each once, at least one
+    ToneMap toneMap = ToneMap::linear;  // for PNG
+    double exposure = 0;                // stops; for PNG
 };
 
 struct Render {

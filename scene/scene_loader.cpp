@@ -5,6 +5,7 @@
 
 #include "numeric/check.h"
 #include "numeric/text.h"
+#include "scene/outputs.h"
 #include "scene/profile_file.h"
 #include "scene/scene_parts.h"
 
@@ -42,7 +43,7 @@ void nameObjects(const TableReader& top, Scene& scene) {
 }  // namespace
 
 Output readOutput(const std::string& file, const TomlValue& value) {
-    const TableReader reader(file, value, "[output]", {"images", "tone_map", "exposure"});
+    const TableReader reader(file, value, {SceneTable::output});
     Output output;
     output.line = reader.line();
     if (reader.has("images")) {
@@ -53,11 +54,11 @@ Output readOutput(const std::string& file, const TomlValue& value) {
             if (item.kind != TomlKind::string)
                 reader.fail(item.line, "'images' in [output] must hold strings");
             const std::string_view name = item.text;
-            if (std::find(kOutputNames.begin(), kOutputNames.end(), name) == kOutputNames.end())
+            if (!findOutput(name))
                 reader.fail(
                     item.line,
                     formatText("'images' in [output]: no output is called '{}'{}; there are {}",
-                               printable(name), nearestHint(name, kOutputNames), joined(kOutputNames)));
+                               printable(name), nearestHint(name, outputNames()), joined(outputNames())));
             if (std::find(output.images.begin(), output.images.end(), name) != output.images.end())
                 reader.fail(item.line, formatText("'images' in [output] names '{}' twice", name));
             output.images.emplace_back(name);
@@ -65,21 +66,20 @@ Output readOutput(const std::string& file, const TomlValue& value) {
     } else {
         output.images = {"beauty"};
     }
-    if (reader.has("tone_map")) output.toneMap = reader.choice("tone_map", kToneMapNames);
-    if (reader.has("exposure")) output.exposure = reader.number("exposure", {-kMaxExposure, kMaxExposure});
+    output.toneMap = reader.member("tone_map", output.toneMap);
+    if (reader.has("exposure")) output.exposure = reader.number("exposure");
     return output;
 }
 
 Render readRender(const std::string& file, const TomlValue& value) {
-    const TableReader reader(file, value, "[render]",
-                             {"samples", "profile", "lighting", "seed", "occlusion", "occlusion_size"});
+    const TableReader reader(file, value, {SceneTable::render});
     Render render;
     render.line = reader.line();
     if (reader.has("samples")) {
-        const int64_t samples = reader.integer("samples", 1, 16);
+        const int samples = reader.integer("samples");
         if (samples != 1 && samples != 4 && samples != 16)
             reader.failKey("samples", formatText("must be 1, 4 or 16, not {}", samples));
-        render.samples = static_cast<int>(samples);
+        render.samples = samples;
     }
     if (reader.has("profile")) {
         const std::string given = reader.text("profile");
@@ -88,15 +88,11 @@ Render readRender(const std::string& file, const TomlValue& value) {
         else
             render.profile = *findProfile(reader.choice("profile", profileNames()));
     }
-    constexpr std::string_view kLighting[] = {"per_pixel", "per_vertex"};
-    if (reader.has("lighting")) render.perVertex = reader.choice("lighting", kLighting) == "per_vertex";
-    if (reader.has("occlusion"))
-        render.occlusionDirections =
-            static_cast<int>(reader.integer("occlusion", 0, kMaxOcclusionDirections));
+    if (reader.has("lighting")) render.perVertex = reader.choice("lighting") == "per_vertex";
+    if (reader.has("occlusion")) render.occlusionDirections = reader.integer("occlusion");
     if (render.occlusionDirections == 0)
         reader.forbid("occlusion_size", "needs 'occlusion' of at least 1 beside it");
-    if (reader.has("occlusion_size"))
-        render.occlusionMapSize = static_cast<int>(reader.integer("occlusion_size", 1, kMaxOcclusionMapSize));
+    if (reader.has("occlusion_size")) render.occlusionMapSize = reader.integer("occlusion_size");
     if (reader.has("seed")) render.seed = static_cast<uint64_t>(reader.integer("seed", 0, INT64_MAX));
     return render;
 }
@@ -108,14 +104,12 @@ std::string where(const Scene& scene, int line) {
 Scene loadScene(const std::filesystem::path& path) {
     const TomlValue document = readToml(path);
     const std::string file = path.string();
-    const TableReader top(
-        file, document, "the scene",
-        {"camera", "environment", "ambient", "material", "mesh", "plane", "light", "output", "render"});
+    const TableReader top(file, document, {SceneTable::scene});
     Scene scene;
     scene.file = path;
     scene.camera = readCamera(file, top.value("camera"));
     if (top.has("environment")) scene.environment = readEnvironment(file, top.value("environment"));
-    if (top.has("ambient")) scene.ambient = top.triple("ambient", kNonNegativeRange);
+    if (top.has("ambient")) scene.ambient = top.triple("ambient");
     scene.materials = readMaterials(file, top);
     for (const TomlValue& mesh : top.tables("mesh"))
         scene.meshes.push_back(readMesh(file, mesh, scene.materials));

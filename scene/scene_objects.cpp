@@ -8,8 +8,6 @@ namespace etalon {
 
 namespace {
 
-// Smallest magnitude of a scale factor.
-constexpr double kMinScale = 1e-9;
 // Smallest sine of the angle between `u_axis` and `normal`.
 constexpr double kMinAxisSine = 1e-6;
 
@@ -40,39 +38,35 @@ size_t findMaterial(const TableReader& reader, const std::vector<Material>& mate
 
 Checker readChecker(const TableReader& reader) {
     Checker checker;
-    checker.diffuse = reader.triple("checker", kUnitRange);
-    checker.size_m = reader.number("checker_size_m", {kMinScale, kMaxSceneNumber});
+    checker.diffuse = reader.triple("checker");
+    checker.size_m = reader.number("checker_size_m");
     return checker;
 }
 
 }  // namespace
 
 Material readMaterial(const std::string& file, const std::string& name, const TomlValue& value) {
-    constexpr std::string_view kKinds[] = {"lambert", "blinn_phong", "mirror"};
-    const TableReader reader(
-        file, value, formatText("[material.{}]", printable(name)),
-        {"kind", "diffuse", "specular", "exponent", "reflectance", "checker", "checker_size_m"});
+    const TableReader reader(file, value, {SceneTable::material},
+                             formatText("[material.{}]", printable(name)));
     Material material;
     material.line = reader.line();
     material.name = name;
-    const std::string kind = reader.choice("kind", kKinds);
+    material.kind = reader.member<MaterialKind>("kind");
     const auto forbid = [&](std::initializer_list<std::string_view> keys) {
         for (const std::string_view key : keys)
-            reader.forbid(key, formatText("is not used by kind '{}'", kind));
+            reader.forbid(key, formatText("is not used by kind '{}'", nameOf(material.kind)));
     };
-    if (kind == "mirror") {
-        material.kind = MaterialKind::mirror;
+    if (material.kind == MaterialKind::mirror) {
         forbid({"diffuse", "specular", "exponent", "checker", "checker_size_m"});
-        material.reflectance = reader.triple("reflectance", kUnitRange);
+        material.reflectance = reader.triple("reflectance");
         return material;
     }
-    if (kind == "lambert") forbid({"specular", "exponent", "reflectance"});
-    material.diffuse = reader.triple("diffuse", kUnitRange);
-    if (kind == "blinn_phong") {
-        material.kind = MaterialKind::blinnPhong;
-        material.specular = reader.triple("specular", kUnitRange);
-        material.exponent = reader.number("exponent", {1, kMaxExponent});
-        if (reader.has("reflectance")) material.reflectance = reader.triple("reflectance", kUnitRange);
+    if (material.kind == MaterialKind::lambert) forbid({"specular", "exponent", "reflectance"});
+    material.diffuse = reader.triple("diffuse");
+    if (material.kind == MaterialKind::blinnPhong) {
+        material.specular = reader.triple("specular");
+        material.exponent = reader.number("exponent");
+        if (reader.has("reflectance")) material.reflectance = reader.triple("reflectance");
     }
     if (reader.has("checker"))
         material.checker = readChecker(reader);
@@ -92,22 +86,17 @@ glm::dmat4 readTransform(const TableReader& reader) {
     if (reader.has("rotate_xyz_deg")) {
         for (const char* key : {"rotate_axis", "rotate_deg"})
             reader.forbid(key, "cannot stand beside 'rotate_xyz_deg'");
-        m = multiplied(rotationXyz(reader.triple("rotate_xyz_deg", kDegreesRange)), m);
+        m = multiplied(rotationXyz(reader.triple("rotate_xyz_deg")), m);
     } else if (reader.has("rotate_axis") || reader.has("rotate_deg")) {
         const glm::dvec3 axis = unitOf(reader.direction("rotate_axis"));
-        m = multiplied(rotationAboutAxis(axis, reader.number("rotate_deg", kDegreesRange)), m);
+        m = multiplied(rotationAboutAxis(axis, reader.number("rotate_deg")), m);
     }
-    if (reader.has("translate")) m = multiplied(translation(reader.triple("translate", kCoordinateRange)), m);
+    if (reader.has("translate")) m = multiplied(translation(reader.triple("translate")), m);
     return m;
 }
 
 MeshObject readMesh(const std::string& file, const TomlValue& value, const std::vector<Material>& materials) {
-    constexpr std::string_view kReflections[] = {"environment", "scene"};
-    constexpr std::string_view kSides[] = {"both", "front"};
-    const TableReader reader(
-        file, value, "[[mesh]]",
-        {"name", "file", "material", "translate", "rotate_axis", "rotate_deg", "rotate_xyz_deg", "scale",
-         "transform", "instances", "sides", "reflection", "cube_size"});
+    const TableReader reader(file, value, {SceneTable::mesh});
     MeshObject mesh;
     mesh.line = reader.line();
     if (reader.has("name")) mesh.name = reader.text("name");
@@ -123,35 +112,29 @@ MeshObject readMesh(const std::string& file, const TomlValue& value, const std::
     if (reader.has("instances") && reader.tables("instances").empty())
         reader.failKey("instances", "must hold at least one transform");
     for (const TomlValue& instance : reader.tables("instances")) {
-        const TableReader place(
-            file, instance, "an instance of [[mesh]]",
-            {"translate", "rotate_axis", "rotate_deg", "rotate_xyz_deg", "scale", "transform"});
+        const TableReader place(file, instance, {SceneTable::transform});
         mesh.objectToWorld.push_back(multiplied(readTransform(place), own));
     }
     if (mesh.objectToWorld.empty()) mesh.objectToWorld.push_back(own);
 
-    mesh.twoSided = !reader.has("sides") || reader.choice("sides", kSides) == "both";
+    mesh.twoSided = !reader.has("sides") || reader.choice("sides") == "both";
     if (!hasMirrorPart(material))
         for (const char* key : {"reflection", "cube_size"})
             reader.forbid(key, "needs a mirror, a material with 'reflectance'");
-    if (reader.has("reflection") && reader.choice("reflection", kReflections) == "scene")
-        mesh.reflection = Reflection::scene;
+    mesh.reflection = reader.member("reflection", mesh.reflection);
     if (mesh.reflection != Reflection::scene) reader.forbid("cube_size", "needs reflection = \"scene\"");
-    if (reader.has("cube_size"))
-        mesh.cubeSize = static_cast<int>(reader.integer("cube_size", 1, kMaxCubeSize));
+    if (reader.has("cube_size")) mesh.cubeSize = reader.integer("cube_size");
     return mesh;
 }
 
 Plane readPlane(const std::string& file, const TomlValue& value, const std::vector<Material>& materials) {
-    const TableReader reader(file, value, "[[plane]]",
-                             {"name", "point", "normal", "size_m", "u_axis", "material"});
+    const TableReader reader(file, value, {SceneTable::plane});
     Plane plane;
     plane.line = reader.line();
     if (reader.has("name")) plane.name = reader.text("name");
-    plane.point = reader.triple("point", kCoordinateRange);
+    plane.point = reader.triple("point");
     plane.normal = unitOf(reader.direction("normal"));
-    const std::vector<double> size = reader.numbers("size_m", 2, kPositiveRange);
-    plane.size_m = {size[0], size[1]};
+    plane.size_m = reader.pair("size_m");
     plane.material = findMaterial(reader, materials);
 
     // Without a u axis: +X, or +Z for a plane that faces along X to within 26 degrees (cosine 0.9).

@@ -14,16 +14,11 @@ inline constexpr NumberRange kNonNegativeRange{0, kMaxSceneNumber};
 inline constexpr NumberRange kPositiveRange{0, kMaxSceneNumber, true};
 inline constexpr NumberRange kDegreesRange{-1e6, 1e6};
 inline constexpr NumberRange kShadowBiasRange{-1e6, 1e6};
+// Smallest magnitude of a scale factor.
+inline constexpr double kMinScale = 1e-9;
 
 Camera readCamera(const std::string& file, const TomlValue& value);
-// The keys of a light's shadows, "shadow" and those that begin with "shadow_", in a table of a light of this
-// kind.
-inline constexpr std::string_view kShadowKeys[] = {
-    "shadow",        "shadow_size",         "shadow_depth",          "shadow_faces",
-    "shadow_bias",   "shadow_slope_bias",   "shadow_receiver_plane", "shadow_normal_offset",
-    "shadow_filter", "shadow_taps",         "shadow_radius_texels",  "shadow_reference",
-    "shadow_snap",   "shadow_light_size_m", "shadow_light_deg",      "shadow_samples",
-    "shadow_blur_m"};
+// The shadows of a light of this kind; the reader knows the tables shadowMap and planarShadow.
 LightShadow readShadow(const TableReader& reader, LightKind kind);
 
 Environment readEnvironment(const std::string& file, const TomlValue& value);

@@ -1,5 +1,4 @@
 // How the shadows of a light are made: the keys that begin with "shadow".
-#include <algorithm>
 #include <span>
 
 #include "numeric/transform.h"
@@ -8,16 +7,17 @@
 namespace etalon {
 namespace {
 
-// Keys of one method alone, and of more than one.
-constexpr std::string_view kMapKeys[] = {
-    "shadow_depth",          "shadow_faces",     "shadow_bias", "shadow_slope_bias",
-    "shadow_receiver_plane", "shadow_filter",    "shadow_taps", "shadow_radius_texels",
-    "shadow_normal_offset",  "shadow_reference", "shadow_snap"};
-constexpr std::string_view kPlanarKeys[] = {"shadow_samples", "shadow_blur_m"};
-constexpr std::string_view kCommonKeys[] = {"shadow_size", "shadow_light_size_m", "shadow_light_deg"};
-
-void forbid(const TableReader& reader, std::span<const std::string_view> keys, std::string_view reason) {
-    for (const std::string_view key : keys) reader.forbid(key, reason);
+// Forbids the keys of a table that the other one has too (isCommon), or that it does not have.
+void forbidKeys(const TableReader& reader, SceneTable table, SceneTable other, bool isCommon,
+                std::string_view reason) {
+    for (const std::string_view key : schemaOf(table).keyNames())
+        if ((schemaOf(other).find(key) != nullptr) == isCommon) reader.forbid(key, reason);
+}
+void forbidMapKeys(const TableReader& reader) {
+    forbidKeys(reader, SceneTable::shadowMap, SceneTable::planarShadow, false, "needs shadow = \"map\"");
+}
+void forbidPlanarKeys(const TableReader& reader) {
+    forbidKeys(reader, SceneTable::planarShadow, SceneTable::shadowMap, false, "needs shadow = \"planar\"");
 }
 
 // The size of a light belongs to its kind.
@@ -30,35 +30,24 @@ void forbidOtherSize(const TableReader& reader, LightKind kind) {
 
 // Of half the angle that a light subtends.
 double tangentOfHalfAngle(const TableReader& reader) {
-    const SinCos half = sinCosOfDegrees(reader.number("shadow_light_deg", {0, kMaxLight_deg}) / 2);
+    const SinCos half = sinCosOfDegrees(reader.number("shadow_light_deg") / 2);
     return half.sin / half.cos;
 }
 
-ShadowMapSettings readMap(const TableReader& reader, LightKind kind) {
-    constexpr std::string_view kDepths[] = {"d16", "d24", "d32f", "linear"};
-    constexpr std::string_view kFaces[] = {"both", "front", "back"};
-    constexpr std::string_view kFilters[] = {"hard", "pcf", "disc", "soft"};
-    constexpr std::string_view kReferences[] = {"clamped", "quantised"};
-    const auto indexOf = [&](std::string_view key, std::span<const std::string_view> names, auto fallback) {
-        if (!reader.has(key)) return fallback;
-        const std::string name = reader.choice(key, names);
-        return static_cast<decltype(fallback)>(std::find(names.begin(), names.end(), name) - names.begin());
-    };
-    forbid(reader, kPlanarKeys, "needs shadow = \"planar\"");
+ShadowMapSettings readMap(const TableReader& table, LightKind kind) {
+    const TableReader reader = table.in(SceneTable::shadowMap);
+    forbidPlanarKeys(reader);
     ShadowMapSettings map = defaultShadowMap();
-    if (reader.has("shadow_size"))
-        map.size = static_cast<int>(reader.integer("shadow_size", 1, kMaxShadowMapSize));
-    map.depth = indexOf("shadow_depth", kDepths, map.depth);
-    map.faces = indexOf("shadow_faces", kFaces, map.faces);
-    if (reader.has("shadow_bias")) map.bias.constant = reader.number("shadow_bias", kShadowBiasRange);
-    if (reader.has("shadow_slope_bias"))
-        map.bias.slopeScale = reader.number("shadow_slope_bias", kShadowBiasRange);
+    if (reader.has("shadow_size")) map.size = reader.integer("shadow_size");
+    map.depth = reader.member("shadow_depth", map.depth);
+    map.faces = reader.member("shadow_faces", map.faces);
+    if (reader.has("shadow_bias")) map.bias.constant = reader.number("shadow_bias");
+    if (reader.has("shadow_slope_bias")) map.bias.slopeScale = reader.number("shadow_slope_bias");
     if (reader.has("shadow_receiver_plane")) map.receiverPlane = reader.boolean("shadow_receiver_plane");
-    if (reader.has("shadow_normal_offset"))
-        map.normalOffset_texels = reader.number("shadow_normal_offset", {0, kMaxShadowRadius_texels});
-    map.reference = indexOf("shadow_reference", kReferences, map.reference);
+    if (reader.has("shadow_normal_offset")) map.normalOffset_texels = reader.number("shadow_normal_offset");
+    map.reference = reader.member("shadow_reference", map.reference);
     if (reader.has("shadow_snap")) map.snap = reader.boolean("shadow_snap");
-    map.filter = indexOf("shadow_filter", kFilters, map.filter);
+    map.filter = reader.member("shadow_filter", map.filter);
     const bool isDisc = map.filter == ShadowFilter::disc, isSoft = map.filter == ShadowFilter::soft;
     if (map.filter == ShadowFilter::hard) reader.forbid("shadow_taps", "is not used by shadow_filter 'hard'");
     if (isDisc || isSoft) map.taps = kDiscTaps;
@@ -68,8 +57,7 @@ ShadowMapSettings readMap(const TableReader& reader, LightKind kind) {
     if (!isDisc && !isSoft)
         reader.forbid("shadow_radius_texels", "needs shadow_filter = \"disc\" or \"soft\"");
     if (isSoft) map.radius_texels = kSoftRadius_texels;
-    if (reader.has("shadow_radius_texels"))
-        map.radius_texels = reader.number("shadow_radius_texels", {0, kMaxShadowRadius_texels});
+    if (reader.has("shadow_radius_texels")) map.radius_texels = reader.number("shadow_radius_texels");
     forbidOtherSize(reader, kind);
     if (!isSoft) {
         for (const char* key : {"shadow_light_size_m", "shadow_light_deg"})
@@ -77,44 +65,38 @@ ShadowMapSettings readMap(const TableReader& reader, LightKind kind) {
     } else if (kind == LightKind::directional) {
         map.tangentOfHalfAngle = tangentOfHalfAngle(reader);
     } else {
-        map.lightSize_m = reader.number("shadow_light_size_m", kNonNegativeRange);
+        map.lightSize_m = reader.number("shadow_light_size_m");
     }
     return map;
 }
 
-PlanarLightSettings readPlanar(const TableReader& reader, LightKind kind) {
-    forbid(reader, kMapKeys, "needs shadow = \"map\"");
+PlanarLightSettings readPlanar(const TableReader& table, LightKind kind) {
+    const TableReader reader = table.in(SceneTable::planarShadow);
+    forbidMapKeys(reader);
     PlanarLightSettings planar;
-    if (reader.has("shadow_size"))
-        planar.resolution =
-            static_cast<int>(reader.integer("shadow_size", kMinPlanarResolution, kMaxPlanarResolution));
-    if (reader.has("shadow_samples"))
-        planar.samples = static_cast<int>(reader.integer("shadow_samples", 1, kMaxSceneLightSamples));
-    if (reader.has("shadow_blur_m")) planar.blurSigma_m = reader.number("shadow_blur_m", kNonNegativeRange);
+    if (reader.has("shadow_size")) planar.resolution = reader.integer("shadow_size");
+    if (reader.has("shadow_samples")) planar.samples = reader.integer("shadow_samples");
+    if (reader.has("shadow_blur_m")) planar.blurSigma_m = reader.number("shadow_blur_m");
     forbidOtherSize(reader, kind);
     if (reader.has("shadow_light_deg")) planar.tangentOfHalfAngle = tangentOfHalfAngle(reader);
-    if (reader.has("shadow_light_size_m"))
-        planar.lightSize_m = reader.number("shadow_light_size_m", kNonNegativeRange);
+    if (reader.has("shadow_light_size_m")) planar.lightSize_m = reader.number("shadow_light_size_m");
     return planar;
 }
 
 }  // namespace
 
 LightShadow readShadow(const TableReader& reader, LightKind kind) {
-    constexpr std::string_view kMethods[] = {"none", "map", "volume", "planar"};
     LightShadow shadow;
-    if (reader.has("shadow")) {
-        const std::string name = reader.choice("shadow", kMethods);
-        shadow.method = static_cast<ShadowMethod>(std::ranges::find(kMethods, name) - std::begin(kMethods));
-    }
+    shadow.method = reader.member("shadow", shadow.method);
     if (shadow.method == ShadowMethod::map) {
         shadow.map = readMap(reader, kind);
     } else if (shadow.method == ShadowMethod::planar) {
         shadow.planar = readPlanar(reader, kind);
     } else {
-        forbid(reader, kMapKeys, "needs shadow = \"map\"");
-        forbid(reader, kPlanarKeys, "needs shadow = \"planar\"");
-        forbid(reader, kCommonKeys, "needs shadow = \"map\" or \"planar\"");
+        forbidMapKeys(reader);
+        forbidPlanarKeys(reader);
+        forbidKeys(reader, SceneTable::shadowMap, SceneTable::planarShadow, true,
+                   "needs shadow = \"map\" or \"planar\"");
     }
     return shadow;
 }

@@ -40,8 +40,8 @@ glm::dmat4 poseFromMatrix(const TableReader& reader) {
 }
 
 glm::dmat4 poseFromTarget(const TableReader& reader) {
-    const glm::dvec3 position = reader.triple("position", kCoordinateRange);
-    const glm::dvec3 target = reader.triple("look_at", kCoordinateRange);
+    const glm::dvec3 position = reader.triple("position");
+    const glm::dvec3 target = reader.triple("look_at");
     const glm::dvec3 view(target.x - position.x, target.y - position.y, target.z - position.z);
     if (lengthOf(view) < kMinDirectionLength)
         reader.failKey("look_at", formatText("must differ from 'position' (distance at least {} m)",
@@ -59,7 +59,7 @@ Intrinsics readIntrinsics(const TableReader& reader, int width, int height) {
     if (reader.has("fov_y_deg")) {
         for (const char* key : {"fx", "fy", "cx", "cy"})
             reader.forbid(key, "cannot stand beside 'fov_y_deg'");
-        const double fov_deg = reader.number("fov_y_deg", {0, 180, true, true});
+        const double fov_deg = reader.number("fov_y_deg");
         const SinCos half = sinCosOfDegrees(fov_deg / 2);
         // f = (height / 2) / tan(fov / 2)
         k.fy = height * 0.5 * half.cos / half.sin;
@@ -74,32 +74,27 @@ Intrinsics readIntrinsics(const TableReader& reader, int width, int height) {
     }
     if (!reader.has("fx") && !reader.has("fy") && !reader.has("cx") && !reader.has("cy"))
         reader.fail(reader.line(), "missing key 'fov_y_deg' (or 'fx', 'fy', 'cx', 'cy') in [camera]");
-    k.fx = reader.number("fx", {1 / kMaxSceneNumber, kMaxSceneNumber});
-    k.fy = reader.number("fy", {1 / kMaxSceneNumber, kMaxSceneNumber});
-    k.cx = reader.number("cx", kCoordinateRange);
-    k.cy = reader.number("cy", kCoordinateRange);
+    k.fx = reader.number("fx");
+    k.fy = reader.number("fy");
+    k.cx = reader.number("cx");
+    k.cy = reader.number("cy");
     return k;
 }
 
 // How an environment lights surfaces.
 void readLighting(const TableReader& reader, Environment& environment) {
-    if (reader.has("lighting")) {
-        const std::string name = reader.choice("lighting", kEnvironmentLightMethods);
-        environment.lighting = static_cast<EnvironmentLightMethod>(
-            std::ranges::find(kEnvironmentLightMethods, name) - std::begin(kEnvironmentLightMethods));
-    }
+    environment.lighting = reader.member("lighting", environment.lighting);
     if (environment.lighting != EnvironmentLightMethod::lights)
         reader.forbid("lights", "needs lighting = \"lights\"");
     if (environment.lighting != EnvironmentLightMethod::map &&
         environment.lighting != EnvironmentLightMethod::blurred)
         reader.forbid("map_size", "needs lighting = \"map\" or \"blurred\"");
     if (reader.has("lights")) {
-        environment.lightCount = static_cast<int>(reader.integer("lights", 1, kMaxEnvironmentLights));
+        environment.lightCount = reader.integer("lights");
         if (!std::has_single_bit(static_cast<unsigned>(environment.lightCount)))
             reader.failKey("lights", formatText("must be a power of two, not {}", environment.lightCount));
     }
-    if (reader.has("map_size"))
-        environment.mapSize = static_cast<int>(reader.integer("map_size", 1, kMaxLightMapSize));
+    if (reader.has("map_size")) environment.mapSize = reader.integer("map_size");
 }
 
 // Which lights of an environment cast shadows, and how.
@@ -115,24 +110,22 @@ void readShadowLights(const TableReader& reader, Environment& environment) {
         reader.forbid("shadow", "needs lighting = \"lights\" or \"dominant\"");
     if (reader.has("shadow_lights")) {
         reader.forbid("shadow_share", "cannot stand beside 'shadow_lights'");
-        environment.shadowLights = static_cast<int>(reader.integer("shadow_lights", 1, kMaxShadowLights));
+        environment.shadowLights = reader.integer("shadow_lights");
     }
-    if (reader.has("shadow_share")) environment.shadowShare = reader.number("shadow_share", {0, 1, true});
+    if (reader.has("shadow_share")) environment.shadowShare = reader.number("shadow_share");
 }
 
 }  // namespace
 
 Camera readCamera(const std::string& file, const TomlValue& value) {
-    const TableReader reader(file, value, "[camera]",
-                             {"width", "height", "fov_y_deg", "fx", "fy", "cx", "cy", "near", "far",
-                              "position", "look_at", "up", "camera_to_world"});
+    const TableReader reader(file, value, {SceneTable::camera});
     Camera camera;
     camera.line = reader.line();
-    camera.width = static_cast<int>(reader.integer("width", 1, kMaxImageSize));
-    camera.height = static_cast<int>(reader.integer("height", 1, kMaxImageSize));
+    camera.width = reader.integer("width");
+    camera.height = reader.integer("height");
     camera.intrinsics = readIntrinsics(reader, camera.width, camera.height);
-    camera.near = reader.number("near", {1 / kMaxSceneNumber, kMaxSceneNumber});
-    camera.far = reader.number("far", kPositiveRange);
+    camera.near = reader.number("near");
+    camera.far = reader.number("far");
     if (!(camera.near < camera.far))
         reader.failKey("far",
                        formatText("must be greater than 'near' ({} m), not {}", camera.near, camera.far));
@@ -141,10 +134,9 @@ Camera readCamera(const std::string& file, const TomlValue& value) {
 }
 
 Environment readEnvironment(const std::string& file, const TomlValue& value) {
-    const TableReader reader(file, value, "[environment]",
-                             {"file", "intensity", "rotation_deg", "constant", "lighting", "lights",
-                              "map_size", "shadow_lights", "shadow_share"},
-                             kShadowKeys);
+    const TableReader reader(file, value,
+                             {SceneTable::environment, SceneTable::environmentShadow, SceneTable::shadowMap,
+                              SceneTable::planarShadow});
     Environment environment;
     environment.line = reader.line();
     readLighting(reader, environment);
@@ -153,9 +145,8 @@ Environment readEnvironment(const std::string& file, const TomlValue& value) {
         reader.forbid("constant", "cannot stand beside 'file'");
         environment.kind = EnvironmentKind::file;
         environment.file = reader.existingFile("file");
-        if (reader.has("intensity")) environment.intensity = reader.number("intensity", kPositiveRange);
-        if (reader.has("rotation_deg"))
-            environment.rotation_deg = reader.number("rotation_deg", kDegreesRange);
+        if (reader.has("intensity")) environment.intensity = reader.number("intensity");
+        if (reader.has("rotation_deg")) environment.rotation_deg = reader.number("rotation_deg");
         return environment;
     }
     for (const char* key : {"intensity", "rotation_deg"}) reader.forbid(key, "needs 'file' beside it");
@@ -163,41 +154,37 @@ Environment readEnvironment(const std::string& file, const TomlValue& value) {
         reader.fail(reader.line(),
                     "missing key 'file' or 'constant' in [environment] (leave the table out for black)");
     environment.kind = EnvironmentKind::constant;
-    environment.constant = reader.triple("constant", kNonNegativeRange);
+    environment.constant = reader.triple("constant");
     return environment;
 }
 
 SceneLight readLight(const std::string& file, const TomlValue& value) {
-    constexpr std::string_view kKinds[] = {"directional", "point", "spot"};
-    const TableReader reader(
-        file, value, "[[light]]",
-        {"kind", "direction", "irradiance", "position", "intensity", "inner_deg", "outer_deg"}, kShadowKeys);
+    const TableReader reader(file, value,
+                             {SceneTable::light, SceneTable::shadowMap, SceneTable::planarShadow});
     SceneLight light;
     light.line = reader.line();
-    const std::string kind = reader.choice("kind", kKinds);
+    light.kind = reader.member<LightKind>("kind");
     const auto forbid = [&](std::initializer_list<std::string_view> keys) {
         for (const std::string_view key : keys)
-            reader.forbid(key, formatText("is not used by kind '{}'", kind));
+            reader.forbid(key, formatText("is not used by kind '{}'", nameOf(light.kind)));
     };
-    if (kind != "point") light.direction = unitOf(reader.direction("direction"));
-    if (kind == "directional") {
+    if (light.kind != LightKind::point) light.direction = unitOf(reader.direction("direction"));
+    if (light.kind == LightKind::directional) {
         forbid({"position", "intensity", "inner_deg", "outer_deg"});
-        light.irradiance = reader.triple("irradiance", kNonNegativeRange);
+        light.irradiance = reader.triple("irradiance");
         light.shadow = readShadow(reader, light.kind);
         return light;
     }
     forbid({"irradiance"});
-    light.position = reader.triple("position", kCoordinateRange);
-    light.intensity = reader.triple("intensity", kNonNegativeRange);
-    if (kind == "point") {
-        light.kind = LightKind::point;
+    light.position = reader.triple("position");
+    light.intensity = reader.triple("intensity");
+    if (light.kind == LightKind::point) {
         forbid({"direction", "inner_deg", "outer_deg"});
         light.shadow = readShadow(reader, light.kind);
         return light;
     }
-    light.kind = LightKind::spot;
-    light.outer_deg = reader.number("outer_deg", {kMinConeStep_deg, kMaxCone_deg});
-    if (reader.has("inner_deg")) light.inner_deg = reader.number("inner_deg", {0, kMaxCone_deg});
+    light.outer_deg = reader.number("outer_deg");
+    if (reader.has("inner_deg")) light.inner_deg = reader.number("inner_deg");
     if (!(light.inner_deg <= light.outer_deg - kMinConeStep_deg))
         reader.failKey(reader.has("inner_deg") ? "inner_deg" : "outer_deg",
                        formatText("must be at least {} below 'outer_deg' ({}), not {}", kMinConeStep_deg,

@@ -51,10 +51,6 @@ size_t editDistance(std::string_view a, std::string_view b) {
     return row[b.size()];
 }
 
-std::string rangeText(NumberRange r) {
-    return formatText("{}{}, {}{}", r.loOpen ? '(' : '[', r.lo, r.hi, r.hiOpen ? ')' : ']');
-}
-
 }  // namespace
 
 std::string joined(std::span<const std::string_view> names) { return joinText(names, ", "); }
@@ -85,13 +81,10 @@ std::string nearestHint(std::string_view given, std::span<const std::string_view
 }
 
 TableReader::TableReader(const std::string& file, const TomlValue& value, std::string title,
-                         std::initializer_list<std::string_view> own,
-                         std::span<const std::string_view> shared)
+                         const std::vector<std::string_view>& known)
     : file_(&file), table_(&value), title_(std::move(title)) {
     if (value.kind != TomlKind::table)
         fail(value.line, formatText("{} must be a table, not {}", title_, kindName(value.kind)));
-    std::vector<std::string_view> known(own);
-    known.insert(known.end(), shared.begin(), shared.end());
     // The first unknown key in the file's order is the one to report.
     int firstLine = 0;
     std::string_view firstKey;
@@ -105,6 +98,38 @@ TableReader::TableReader(const std::string& file, const TomlValue& value, std::s
     if (firstLine == 0) return;
     fail(firstLine, formatText("unknown key '{}' in {}{}; known keys: {}", printable(firstKey), title_,
                                nearestHint(firstKey, known), joined(known)));
+}
+
+namespace {
+
+std::vector<std::string_view> keyNamesOf(std::initializer_list<SceneTable> tables) {
+    std::vector<std::string_view> names;
+    for (const SceneTable table : tables)
+        for (const std::string_view name : schemaOf(table).keyNames())
+            if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+    return names;
+}
+
+}  // namespace
+
+TableReader::TableReader(const std::string& file, const TomlValue& value,
+                         std::initializer_list<SceneTable> tables, std::string title)
+    : TableReader(file, value, title.empty() ? std::string(schemaOf(*tables.begin()).name) : std::move(title),
+                  keyNamesOf(tables)) {
+    for (const SceneTable table : tables) schema_.push_back(&schemaOf(table));
+}
+
+TableReader TableReader::in(SceneTable table) const {
+    TableReader reader = *this;
+    reader.schema_ = {&schemaOf(table)};
+    return reader;
+}
+
+const SchemaKey& TableReader::schema(std::string_view key, KeyType type) const {
+    const SchemaKey* found = nullptr;
+    for (size_t i = 0; i < schema_.size() && !found; i++) found = schema_[i]->find(key);
+    ETALON_CHECK(found && found->type == type, "the schema of {} has no such key {}", title_, key);
+    return *found;
 }
 
 void TableReader::fail(int line, const std::string& reason) const {
@@ -144,6 +169,24 @@ double TableReader::checkedNumber(const TomlValue& v, std::string_view key, Numb
         fail(v.line,
              formatText("'{}' in {} must be a number in {}, not {}", key, title_, rangeText(r), v.number));
     return v.number + 0.0;  // -0 becomes +0
+}
+
+double TableReader::number(std::string_view key) const {
+    return number(key, schema(key, KeyType::number).range);
+}
+int TableReader::integer(std::string_view key) const {
+    const NumberRange& range = schema(key, KeyType::integer).range;
+    return static_cast<int>(integer(key, static_cast<int64_t>(range.lo), static_cast<int64_t>(range.hi)));
+}
+std::string TableReader::choice(std::string_view key) const {
+    return choice(key, schema(key, KeyType::choice).choices);
+}
+glm::dvec3 TableReader::triple(std::string_view key) const {
+    return triple(key, schema(key, KeyType::triple).range);
+}
+glm::dvec2 TableReader::pair(std::string_view key) const {
+    const std::vector<double> v = numbers(key, 2, schema(key, KeyType::pair).range);
+    return {v[0], v[1]};
 }
 
 double TableReader::number(std::string_view key, NumberRange range) const {

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <initializer_list>
 #include <span>
@@ -11,15 +12,11 @@
 #include <string_view>
 #include <vector>
 
+#include "numeric/names.h"
+#include "scene/schema.h"
 #include "scene/toml_document.h"
 
 namespace etalon {
-
-// Numbers that a key may have: from lo (excluded when loOpen) to hi (excluded when hiOpen).
-struct NumberRange {
-    double lo, hi;
-    bool loOpen = false, hiOpen = false;
-};
 
 // "did you mean 'x'?" with a space in front when one of the names is near `given` (by edit distance), else
 // "".
@@ -35,10 +32,16 @@ std::string printable(std::string_view text);
 class TableReader {
   public:
     // file and value are kept by reference and must outlive the reader; title is what messages call the
-    // table, such as "[camera]". Rejects a value that is not a table, and keys that are neither in `own` nor
-    // in `shared`, those that several tables know.
+    // table, such as "[camera]". Rejects a value that is not a table, and keys that are not known.
     TableReader(const std::string& file, const TomlValue& value, std::string title,
-                std::initializer_list<std::string_view> own, std::span<const std::string_view> shared = {});
+                const std::vector<std::string_view>& known);
+    // Of a scene file: knows the keys of the tables of its schema, and for each the type and range of the first
+    // table that has it. Without a title: the name of the first.
+    TableReader(const std::string& file, const TomlValue& value, std::initializer_list<SceneTable> tables,
+                std::string title = "");
+
+    // The same with the types and ranges of one table.
+    TableReader in(SceneTable table) const;
 
     int line() const { return table_->line; }
     const std::string& file() const { return *file_; }
@@ -48,13 +51,28 @@ class TableReader {
     // Line of a key, or of the table when it is absent.
     int lineOf(std::string_view key) const;
 
-    // Required keys.
+    // Required keys. Without a range or names: those of the schema.
+    double number(std::string_view key) const;
+    int integer(std::string_view key) const;
+    std::string choice(std::string_view key) const;
+    glm::dvec3 triple(std::string_view key) const;
+    glm::dvec2 pair(std::string_view key) const;
     double number(std::string_view key, NumberRange range) const;
     int64_t integer(std::string_view key, int64_t lo, int64_t hi) const;
     std::string text(std::string_view key) const;
     bool boolean(std::string_view key) const;
     // One of `names`.
     std::string choice(std::string_view key, std::span<const std::string_view> names) const;
+    // The member of an enumeration that has the name (numeric/names.h).
+    template <Named E>
+    E member(std::string_view key) const {
+        return *memberOf<E>(choice(key, kNames<E>));
+    }
+    // The same; `absent` where the key is not there.
+    template <Named E>
+    E member(std::string_view key, E absent) const {
+        return has(key) ? member<E>(key) : absent;
+    }
     // Three numbers, each in the range.
     glm::dvec3 triple(std::string_view key, NumberRange range) const;
     std::vector<double> numbers(std::string_view key, size_t count, NumberRange range) const;
@@ -75,11 +93,13 @@ class TableReader {
 
   private:
     const TomlValue* find(std::string_view key) const;
+    const SchemaKey& schema(std::string_view key, KeyType type) const;
     double checkedNumber(const TomlValue& value, std::string_view key, NumberRange range) const;
 
     const std::string* file_;
     const TomlValue* table_;
     std::string title_;
+    std::vector<const TableSchema*> schema_;
 };
 
 }  // namespace etalon

@@ -129,7 +129,7 @@ TEST_CASE("AnEffectThatNoOutputNeedsAddsNoPass") {
     const Plan plan = makePlan(fullScene(), options);
     CHECK_FALSE(passOf(plan, "environment image").runs);
     CHECK_FALSE(passOf(plan, "environment cube map").runs);
-    CHECK_FALSE(passOf(makePlan(fullScene(), asking({"depth"})), "shading").runs);
+    CHECK_FALSE(passOf(makePlan(fullScene(), asking({"window_depth"})), "shading").runs);
 }
 
 TEST_CASE("EachEffectsPassesVanishWhenNothingNeedsThem") {
@@ -400,11 +400,11 @@ TEST_CASE("OcclusionRunsForLightFromEverywhere") {
 }
 
 TEST_CASE("EverythingRunsAllPassesAndSaysWhyTheyWouldNot") {
-    RenderOptions options = asking({"depth"});
+    RenderOptions options = asking({"window_depth"});
     options.everything = true;
     const Plan plan = makePlan(fullScene(), options);
     for (const Pass& pass : plan.passes) CHECK_MESSAGE(pass.runs, pass.name());
-    CHECK(passOf(plan, "depth").reason == "output asked for");
+    CHECK(passOf(plan, "window_depth").reason == "output asked for");
     CHECK(passOf(plan, "diffuse").reason == "everything runs; else not: no output shows it");
 }
 

@@ -7,6 +7,7 @@
 #include "numeric/text.h"
 #include "numeric/transform.h"
 #include "raster/profile.h"
+#include "scene/outputs.h"
 #include "tests/support/random_numbers.h"
 
 namespace etalon::test {
@@ -196,11 +197,15 @@ class Maker {
 
     void setOutputs(Output& output) {
         const double part = random_.uniform(0, 1);
-        for (const std::string_view name : kOutputNames)
+        for (const std::string_view name : outputNames())
             if (chance(part)) output.images.emplace_back(name);
-        if (output.images.empty())
-            output.images = {std::string(kOutputNames[random_.below(kOutputNames.size())])};
-        output.toneMap = kToneMapNames[random_.below(3)];
+        if (output.images.empty()) {
+            const auto number = static_cast<size_t>(random_.below(static_cast<int>(outputNames().size())));
+            output.images = {std::string(outputNames()[number])};
+        }
+        // Has no channel where no light casts.
+        if (output.images == std::vector<std::string>{"shadow"}) output.images.emplace_back("ids");
+        output.toneMap = static_cast<ToneMap>(random_.below(static_cast<int>(kNames<ToneMap>.size())));
     }
 
     void setRender(Render& render) {
@@ -248,8 +253,7 @@ std::string sceneText(const Scene& scene) {
         "profile {}, {} samples, {}, occlusion {} of {}, environment {} lights {} shadow {}; outputs",
         scene.render.profile.name, scene.render.samples, scene.render.perVertex ? "per vertex" : "per pixel",
         scene.render.occlusionDirections, scene.render.occlusionMapSize,
-        static_cast<int>(scene.environment.kind),
-        kEnvironmentLightMethods[static_cast<size_t>(scene.environment.lighting)],
+        static_cast<int>(scene.environment.kind), nameOf(scene.environment.lighting),
         static_cast<int>(scene.environment.shadow.method));
     for (const std::string& output : scene.output.images) text += " " + output;
     for (const MeshObject& mesh : scene.meshes)

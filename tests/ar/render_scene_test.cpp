@@ -8,6 +8,7 @@
 #include "files/image_io.h"
 #include "golden/compare.h"
 #include "numeric/transform.h"
+#include "scene/outputs.h"
 #include "scene/scene_loader.h"
 #include "tests/support/scratch_folder.h"
 
@@ -101,7 +102,7 @@ TEST_CASE("AnEffectThatNoOutputNeedsChangesNoBit") {
     scene.materials[0].exponent = 30;
     scene.environment.kind = EnvironmentKind::file;
     scene.environment.file = "scenes/synthetic_64x32.hdr";
-    scene.output.toneMap = "filmic";
+    scene.output.toneMap = ToneMap::filmic;
     CHECK(sameBits(frameOf(scene), before));
     const Plan planAfter = planScene(scene, {});
     for (size_t i = 0; i < planBefore.passes.size(); i++)
@@ -191,10 +192,30 @@ TEST_CASE("TurningTheEnvironmentIsTurningTheCameraBack") {
 TEST_CASE("OutputsNameTheirChannelsForTheUsualViewers") {
     const Scene scene = loadScene("scenes/minimal.toml");
     RenderOptions options;
-    for (const std::string_view name : kOutputNames) options.request.outputs.emplace_back(name);
+    for (const std::string_view name : outputNames()) options.request.outputs.emplace_back(name);
     const Frame frame = frameOf(scene, options);
-    for (const char* name : {"R", "G", "B", "Z", "distance", "N.X", "N.Y", "N.Z", "id.object", "id.triangle",
-                             "coverage", "diffuse.R", "specular.G", "mirror.B", "background.R", "ambient.G"})
+    for (const char* name : {"R",
+                             "G",
+                             "B",
+                             "A",
+                             "Z",
+                             "depth.window",
+                             "distance",
+                             "N.X",
+                             "N.Y",
+                             "N.Z",
+                             "id.object",
+                             "id.triangle",
+                             "coverage",
+                             "diffuse.R",
+                             "specular.G",
+                             "mirror.B",
+                             "background.R",
+                             "ambient.G",
+                             "occlusion.open",
+                             "occlusion.X",
+                             "irradiance.G",
+                             "environment.B"})
         CHECK_MESSAGE(frame.find(name) != nullptr, name);
     CHECK(frame.metadata.at("etalon.profile") == "f32");
     CHECK(frame.metadata.at("etalon.scene") == "minimal.toml");

@@ -102,7 +102,7 @@ TEST_CASE("SceneIsReadAsWritten") {
     CHECK(scene.render.profile.name == "f64");
     CHECK(scene.render.seed == 7);
     CHECK(scene.output.images == std::vector<std::string>{"beauty", "depth"});
-    CHECK(scene.output.toneMap == "reinhard");
+    CHECK(scene.output.toneMap == ToneMap::reinhard);
     CHECK(scene.output.exposure == 1.5);
     CHECK(scene.camera.width == 64);
     CHECK(scene.camera.height == 48);
@@ -156,7 +156,7 @@ TEST_CASE("DefaultsFillWhatIsLeftOut") {
     CHECK(transformPoint(scene.camera.cameraToWorld, {0, 0, -1}) == glm::dvec3(4, 6, 7));
     CHECK(scene.environment.kind == EnvironmentKind::none);
     CHECK(scene.output.images == std::vector<std::string>{"beauty"});
-    CHECK(scene.output.toneMap == "linear");
+    CHECK(scene.output.toneMap == ToneMap::linear);
     CHECK(scene.render.samples == 1);
     CHECK(scene.render.profile.name == "f32");
     CHECK(scene.meshes[0].name == "mesh0");

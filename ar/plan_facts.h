@@ -1,0 +1,41 @@
+// What passes find out that the plan of those behind them depends on.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "ar/scene_passes.h"
+#include "lighting/render_view.h"
+#include "probes/probe_light.h"
+#include "scene/scene.h"
+
+namespace etalon {
+
+// What a view shows.
+struct VisibilityFacts {
+    std::vector<bool> objectVisible;  // for each of sceneObjects
+    bool backgroundVisible = true;
+};
+
+// A light of the environment that casts shadows.
+struct EnvironmentCaster {
+    size_t light = 0;          // among those of the environment
+    double solidAngle_sr = 0;  // that it stands for
+    double share = 0;          // of the energy of all of them
+    SurfaceLight source;
+};
+
+// What passes have found.
+struct PlanFacts {
+    const Geometry* geometry = nullptr;
+    std::optional<VisibilityFacts> visibility;
+    std::optional<std::vector<EnvironmentCaster>> casters;
+};
+
+VisibilityFacts visibilityFacts(const VisibleScene& visible, size_t objects);
+
+// Which of the environment's lights cast shadows.
+std::vector<EnvironmentCaster> castersOf(const Environment& environment,
+                                         const std::vector<ProbeLight>& lights);
+
+}  // namespace etalon

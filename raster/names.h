@@ -1,0 +1,27 @@
+// Names of what a profile may be beside its formats, and of the faces of a cube.
+#pragma once
+
+#include "numeric/names.h"
+#include "raster/cube_face.h"
+#include "raster/profile.h"
+
+namespace etalon {
+
+template <>
+inline constexpr auto kNames<RasterReal> = std::to_array<std::string_view>({"fp32", "fp64"});
+static_assert(isLastName(RasterReal::fp64));
+template <>
+inline constexpr auto kNames<DepthFormat> = std::to_array<std::string_view>({"d16", "d24", "d32f"});
+static_assert(isLastName(DepthFormat::d32f));
+template <>
+inline constexpr auto kNames<DepthRounding> = std::to_array<std::string_view>({"exact", "driver"});
+static_assert(isLastName(DepthRounding::driver));
+template <>
+inline constexpr auto kNames<Filter> = std::to_array<std::string_view>({"nearest", "bilinear"});
+static_assert(isLastName(Filter::bilinear));
+template <>
+inline constexpr auto kNames<CubeFace> = std::to_array<std::string_view>({"+x", "-x", "+y", "-y", "+z",
+                                                                          "-z"});
+static_assert(isLastName(CubeFace::minusZ));
+
+}  // namespace etalon

@@ -1,0 +1,127 @@
+#include "scene/outputs.h"
+
+#include <algorithm>
+
+namespace etalon {
+namespace {
+
+constexpr std::string_view kMean = "mean of the samples", kFirst = "sample 0";
+constexpr std::string_view kRadiance = "W/(m^2 sr)", kNotNegative = "0 and above",
+                           kUnitVector = "unit vector";
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+OutputPart radiance(std::vector<std::string_view> channels, ShadeOutput image,
+                    std::string_view background = "0") {
+    return {std::move(channels), image, 0, kRadiance, kNotNegative, kMean, background};
+}
+
+std::vector<OutputDescription> makeOutputs() {
+    return {
+        {"beauty",
+         "the radiance that arrives: `ambient` + `diffuse` + `specular` + `mirror` + `background`, added in "
+         "this order "
+         "at each fragment",
+         {radiance({"R", "G", "B"}, ShadeOutput::beauty, "the environment")}},
+        {"alpha",
+         "the part of the pixel that objects cover. R, G and B are not multiplied with it: they hold the "
+         "background",
+         {{{"A"}, {}, 0, "1", "[0, 1]", "samples covered / samples", "0"}}},
+        {"depth",
+         "`Z`, the distance along the optical axis, from the eye to the point that is shaded, dot(p - eye, "
+         "forward) in "
+         "the fragment arithmetic (lighting/kernels/view_depth.glsl)",
+         {{{"Z"}, ShadeOutput::depth, kInfinity, "m", "[near, far]", kFirst, "infinity"}}},
+        {"window_depth",
+         "the depth that the depth test compares, as it is stored, as a fraction: 0 on the near plane, 1 on "
+         "the far one",
+         {{{"depth.window"}, {}, 1, "1", "[0, 1]", kFirst, "1"}}},
+        {"distance",
+         "the distance from the eye to the point that is shaded",
+         {{{"distance"}, ShadeOutput::distance, kInfinity, "m", "near and above", kFirst, "infinity"}}},
+        {"normals",
+         "the interpolated normal in world space, on the side that is seen",
+         {{{"N.X", "N.Y", "N.Z"}, ShadeOutput::normals, 0, kUnitVector, "[-1, 1]", kFirst, "0"}}},
+        {"ids",
+         "whole numbers: the object, 1 for the first (meshes with all their instances in the file's order, "
+         "then planes), "
+         "and its triangle, 1 for the first",
+         {{{"id.object", "id.triangle"}, {}, 0, "count", "1 and above", kFirst, "0"}}},
+        {"coverage",
+         "the numbers of `alpha` under a name that no viewer composites with",
+         {{{"coverage"}, {}, 0, "1", "[0, 1]", "samples covered / samples", "0"}}},
+        {"diffuse",
+         "what lights and environment reflect diffusely",
+         {radiance({"diffuse.R", "diffuse.G", "diffuse.B"}, ShadeOutput::diffuse)}},
+        {"specular",
+         "the gloss of lights",
+         {radiance({"specular.R", "specular.G", "specular.B"}, ShadeOutput::specular)}},
+        {"mirror",
+         "what mirrors show",
+         {radiance({"mirror.R", "mirror.G", "mirror.B"}, ShadeOutput::mirror)}},
+        {"background",
+         "the environment where it is seen",
+         {radiance({"background.R", "background.G", "background.B"}, ShadeOutput::background,
+                   "the environment")}},
+        {"ambient",
+         "what diffuse surfaces reflect of `ambient`",
+         {radiance({"ambient.R", "ambient.G", "ambient.B"}, ShadeOutput::ambient)}},
+        {"shadow",
+         "for each light that casts shadows the part of it that reaches the surface: `light0` for the "
+         "scene's first "
+         "light, `environment0` for the first that the environment is cut into. 1 on surfaces that reflect "
+         "no lights; "
+         "on those that turn away from the light what its shadow method finds there",
+         {{{"shadow.LIGHT"}, ShadeOutput::shadows, 1, "1", "[0, 1]", kMean, "1"}}},
+        {"occlusion",
+         "the part of its surroundings that the surface sees, weighted by the cosine, and the bent normal, "
+         "the mean "
+         "direction of what is open. Without `[render] occlusion` 1 and the normal",
+         {{{"occlusion.open"}, ShadeOutput::open, 1, "1", "[0, 1]", kMean, "1"},
+          {{"occlusion.X", "occlusion.Y", "occlusion.Z"},
+           ShadeOutput::bentNormals,
+           0,
+           kUnitVector,
+           "[-1, 1]",
+           kFirst,
+           "0"}}},
+        {"irradiance",
+         "what the surface receives from the environment (`[environment] lighting`), after occlusion and the "
+         "shadows of "
+         "the environment's lights, whatever it reflects",
+         {{{"irradiance.R", "irradiance.G", "irradiance.B"},
+           ShadeOutput::irradiance,
+           0,
+           "W/m^2",
+           kNotNegative,
+           kMean,
+           "0"}}},
+        {"environment",
+         "what of `irradiance` the surface reflects diffusely: times its diffuse reflectance / pi. The "
+         "environment's "
+         "part of `diffuse`",
+         {radiance({"environment.R", "environment.G", "environment.B"}, ShadeOutput::environment)}},
+    };
+}
+
+}  // namespace
+
+std::span<const OutputDescription> outputDescriptions() {
+    static const std::vector<OutputDescription> outputs = makeOutputs();
+    return outputs;
+}
+
+std::span<const std::string_view> outputNames() {
+    static const std::vector<std::string_view> names = [] {
+        std::vector<std::string_view> of;
+        for (const OutputDescription& output : outputDescriptions()) of.push_back(output.name);
+        return of;
+    }();
+    return names;
+}
+
+const OutputDescription* findOutput(std::string_view name) {
+    const auto found = std::ranges::find(outputDescriptions(), name, &OutputDescription::name);
+    return found == outputDescriptions().end() ? nullptr : &*found;
+}
+
+}  // namespace etalon
