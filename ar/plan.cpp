@@ -263,11 +263,10 @@ class Planner : public std::enable_shared_from_this<Planner> {
         shadows_.clear(), casting_.clear();
         for (size_t l = 0; l < scene_.lights.size(); l++) {
             const SceneLight& light = scene_.lights[l];
-            const SurfaceLight source = surfaceLightOf(light);
             const bool isDirectional = light.kind == LightKind::directional;
             if (light.shadow.method != ShadowMethod::none)
-                addShadow(list, {LightId::Of::scene, l}, source, light.shadow,
-                          isBlack(isDirectional ? source.irradiance : source.intensity), "");
+                addShadow(list, {LightId::Of::scene, l}, light, light.shadow,
+                          isBlack(isDirectional ? light.irradiance : light.intensity), "");
         }
         const Environment& environment = scene_.environment;
         if (!environmentCasts()) return;

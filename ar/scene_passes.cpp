@@ -81,7 +81,7 @@ void SceneLights::addScene(const Scene& scene, const std::vector<bool>& shows) {
     for (const SceneLight& light : scene.lights) {
         shows_.push_back(shows[ofScene_.size()]);
         ofScene_.push_back(lights_.size());
-        lights_.push_back(surfaceLightOf(light));
+        lights_.push_back(light);
     }
 }
 void SceneLights::addEnvironment(const std::vector<ProbeLight>& lights) {

@@ -22,7 +22,7 @@ Arithmetic vertexArithmetic(const Profile& profile) {
 Showing::Showing(const Scene& scene, const Profile& profile, const PlanFacts& facts)
     : scene_(scene), profile_(profile), facts_(facts), objects_(sceneObjects(scene)) {
     for (const SceneObject& object : objects_) materials_.push_back(surfaceMaterialOf(*object.material));
-    for (const SceneLight& light : scene.lights) lights_.push_back(surfaceLightOf(light));
+    for (const SceneLight& light : scene.lights) lights_.push_back(light);
 }
 
 bool Showing::isVisible(size_t object) const {

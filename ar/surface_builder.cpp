@@ -25,19 +25,6 @@ SurfaceMaterial surfaceMaterialOf(const Material& material) {
     return surface;
 }
 
-SurfaceLight surfaceLightOf(const SceneLight& light) {
-    SurfaceLight surface;
-    surface.toLight = {-light.direction.x, -light.direction.y, -light.direction.z};
-    surface.irradiance = light.irradiance;
-    surface.kind = light.kind;
-    surface.position_m = light.position;
-    surface.intensity = light.intensity;
-    surface.axis = light.direction;
-    surface.cosInner = sinCosOfDegrees(light.inner_deg).cos;
-    surface.cosOuter = sinCosOfDegrees(light.outer_deg).cos;
-    return surface;
-}
-
 SurfaceEnvironment surfaceEnvironmentOf(const Environment& environment) {
     SurfaceEnvironment surface;
     if (environment.kind == EnvironmentKind::constant) surface.constant = environment.constant;

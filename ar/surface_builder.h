@@ -21,7 +21,6 @@ struct SceneObject {
 std::vector<SceneObject> sceneObjects(const Scene& scene);
 
 SurfaceMaterial surfaceMaterialOf(const Material& material);
-SurfaceLight surfaceLightOf(const SceneLight& light);
 
 // The environment's rotation, and its radiance where that is constant.
 SurfaceEnvironment surfaceEnvironmentOf(const Environment& environment);

@@ -159,17 +159,9 @@ struct Plane {
     size_t material = 0;
 };
 
-// direction: unit, the way the light travels (directional, spot). irradiance: W/m^2 on a surface
-// perpendicular to a directional light. intensity: W/sr of a point or spot light at `position`. The cones of
-// a spot light are the angles from its direction where its intensity begins to fall and where it is 0.
-struct SceneLight {
+// A light as it shades (lighting/surface_scene.h), in world space, and its shadow.
+struct SceneLight : SurfaceLight {
     int line = 0;
-    LightKind kind = LightKind::directional;
-    glm::dvec3 direction{0, -1, 0};
-    glm::dvec3 irradiance{0.0};
-    glm::dvec3 position{0.0};
-    glm::dvec3 intensity{0.0};
-    double inner_deg = 0, outer_deg = 0;
     LightShadow shadow;
 };
 

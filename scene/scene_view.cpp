@@ -168,7 +168,10 @@ SceneLight readLight(const std::string& file, const TomlValue& value) {
         for (const std::string_view key : keys)
             reader.forbid(key, formatText("is not used by kind '{}'", nameOf(light.kind)));
     };
-    if (light.kind != LightKind::point) light.direction = unitOf(reader.direction("direction"));
+    if (light.kind != LightKind::point) {
+        light.axis = unitOf(reader.direction("direction"));
+        light.toLight = -light.axis;
+    }
     if (light.kind == LightKind::directional) {
         forbid({"position", "intensity", "inner_deg", "outer_deg"});
         light.irradiance = reader.triple("irradiance");
@@ -176,19 +179,22 @@ SceneLight readLight(const std::string& file, const TomlValue& value) {
         return light;
     }
     forbid({"irradiance"});
-    light.position = reader.triple("position");
+    light.position_m = reader.triple("position");
     light.intensity = reader.triple("intensity");
     if (light.kind == LightKind::point) {
         forbid({"direction", "inner_deg", "outer_deg"});
         light.shadow = readShadow(reader, light.kind);
         return light;
     }
-    light.outer_deg = reader.number("outer_deg");
-    if (reader.has("inner_deg")) light.inner_deg = reader.number("inner_deg");
-    if (!(light.inner_deg <= light.outer_deg - kMinConeStep_deg))
+    // The angles from the direction where the intensity begins to fall and where it is 0.
+    const double outer_deg = reader.number("outer_deg");
+    const double inner_deg = reader.has("inner_deg") ? reader.number("inner_deg") : 0;
+    if (!(inner_deg <= outer_deg - kMinConeStep_deg))
         reader.failKey(reader.has("inner_deg") ? "inner_deg" : "outer_deg",
                        formatText("must be at least {} below 'outer_deg' ({}), not {}", kMinConeStep_deg,
-                                  light.outer_deg, light.inner_deg));
+                                  outer_deg, inner_deg));
+    light.cosInner = sinCosOfDegrees(inner_deg).cos;
+    light.cosOuter = sinCosOfDegrees(outer_deg).cos;
     light.shadow = readShadow(reader, light.kind);
     return light;
 }

@@ -166,13 +166,15 @@ class Maker {
         for (int i = random_.below(4); i > 0; i--) {
             SceneLight light;
             light.kind = static_cast<LightKind>(random_.below(3));
-            light.direction = direction();
+            light.axis = direction();
+            light.toLight = -light.axis;
             const glm::dvec3 power = 3.0 * colour();
             // Far from all objects, so that 1 / distance^2 stays in range.
             const double distance_m = random_.uniform(4, 8);
-            light.position = distance_m * direction();
-            light.outer_deg = random_.uniform(20, 80);
-            light.inner_deg = light.outer_deg / 2;
+            light.position_m = distance_m * direction();
+            const double outer_deg = random_.uniform(20, 80);
+            light.cosOuter = sinCosOfDegrees(outer_deg).cos;
+            light.cosInner = sinCosOfDegrees(outer_deg / 2).cos;
             (light.kind == LightKind::directional ? light.irradiance : light.intensity) = power;
             light.shadow = shadow(light.kind);
             scene.lights.push_back(light);

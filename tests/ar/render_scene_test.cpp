@@ -303,13 +303,13 @@ TEST_CASE("ShadowsOfLightsBehindAllThatIsVisibleDoNotRun") {
     SceneLight& light = scene.lights[0];
     light.kind = LightKind::directional;
     light.irradiance = glm::dvec3(1);
-    light.direction = {0, 1, 0};
+    light.toLight = {0, -1, 0};
     light.shadow.method = ShadowMethod::map;
     const Plan plan = renderScene(scene, {}).plan;
     CHECK_FALSE(plan.find("shadow map of light0")->runs);
     CHECK(plan.find("shadow map of light0")->reason == "the light is behind all that is visible");
     CHECK(plan.find("diffuse")->reason == "the lights are behind each diffuse surface");
-    light.direction = {0, -1, 0};
+    light.toLight = {0, 1, 0};
     CHECK(renderScene(scene, {}).plan.find("diffuse")->runs);
 }
 

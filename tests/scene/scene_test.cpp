@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -138,7 +139,7 @@ TEST_CASE("SceneIsReadAsWritten") {
     CHECK(scene.planes[0].size_m == glm::dvec2(4, 6));
     CHECK(scene.planes[0].material == 1);
     REQUIRE(scene.lights.size() == 1);
-    CHECK(scene.lights[0].direction == glm::dvec3(0, -1, 0));
+    CHECK(scene.lights[0].toLight == glm::dvec3(0, 1, 0));
     CHECK(where(scene, mesh.fileLine) == folder.file().string() + ":31");
 }
 
@@ -172,12 +173,12 @@ TEST_CASE("PlacedLightsAreReadAsWritten") {
         "outer_deg = 60\ninner_deg = 30\n");
     REQUIRE(scene.lights.size() == 3);
     CHECK(scene.lights[1].kind == LightKind::point);
-    CHECK(scene.lights[1].position == glm::dvec3(1, 2, 3));
+    CHECK(scene.lights[1].position_m == glm::dvec3(1, 2, 3));
     CHECK(scene.lights[1].intensity == glm::dvec3(4, 5, 6));
     CHECK(scene.lights[2].kind == LightKind::spot);
-    CHECK(scene.lights[2].direction == glm::dvec3(0, 0, -1));
-    CHECK(scene.lights[2].outer_deg == 60);
-    CHECK(scene.lights[2].inner_deg == 30);
+    CHECK(scene.lights[2].axis == glm::dvec3(0, 0, -1));
+    CHECK(scene.lights[2].cosOuter == doctest::Approx(0.5).epsilon(1e-15));
+    CHECK(scene.lights[2].cosInner == doctest::Approx(std::sqrt(0.75)).epsilon(1e-15));
     const auto refused = [&](const std::string& cones) {
         return errorOf(folder, sceneText() +
                                    "[[light]]\nkind = 'spot'\nposition = [1, 2, 3]\nintensity = [4, 5, 6]\n"
