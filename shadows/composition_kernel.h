@@ -1,4 +1,5 @@
-// The kernel text that makes shadow textures of planes from counts, and one picture of several, and what it reads.
+// The kernel text that makes shadow textures of planes from counts, and one picture of several; and what it
+// reads.
 #pragma once
 
 #include <vector>

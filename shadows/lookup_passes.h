@@ -20,8 +20,8 @@ class ShadowLookup {
 };
 
 // How pcf finds the lit texels of its windows with native numbers: side by side, in a faster arrangement
-// (shadows/window_lookup.h), or as the kernel text says, one point per lane. The same visibility to the bit. All
-// other numbers, all other filters and quantised references run the text.
+// (shadows/window_lookup.h), or as the kernel text says, one point per lane. The same visibility to the bit.
+// All other numbers, all other filters and quantised references run the text.
 enum class WindowSearch : uint8_t { sideBySide, text };
 
 struct LookupPasses {

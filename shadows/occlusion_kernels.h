@@ -1,5 +1,5 @@
-// The kernel text of ambient occlusion, and what it reads: a view that was drawn with depths of D32F, and the weights
-// of its texels.
+// The kernel text of ambient occlusion, and what it reads: a view that was drawn with depths of D32F, and the
+// weights of its texels.
 #pragma once
 
 #include <span>

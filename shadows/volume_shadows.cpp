@@ -4,9 +4,25 @@
 #include <numeric>
 
 #include "numeric/check.h"
+#include "numeric/kernel_types.h"
 
 namespace etalon {
 namespace {
+
+// The kernel text of the masks, over the samples of a pixel.
+template <class T>
+struct VolumeMaskKernel {
+#include "numeric/kernel_scope.inc"
+    // The GLSL counterpart is shadows/kernels/volume_scope.glsl; the two say the same.
+    boolean isLitSample(int s) const { return boolean(mask.at(x, y, s) != 0); }
+    boolean isOwnSample(int s) const { return boolean(instance.at(x, y, s) == pointInstance); }
+#include "shadows/kernels/volume_mask.glsl"
+
+    const Image<uint8_t>& mask;
+    const Image<uint32_t>& instance;
+    int x = 0, y = 0;
+    uint32_t pointInstance = 0;
+};
 
 // A caster in the view: what does not depend on the light.
 struct Caster {
@@ -167,18 +183,12 @@ VolumeShadows::VolumeShadows(const SurfaceScene& scene, const std::vector<Placed
 }
 
 void VolumeShadows::find(size_t light, const LitPoints& points, std::span<double> visibility) const {
-    const Image<uint8_t>& mask = lit_[light];
-    const int samples = mask.channels();
+    const int samples = lit_[light].channels();
+    VolumeMaskKernel<double> kernel{lit_[light], instance_};
     for (size_t i = 0; i < points.size(); i++) {
-        const auto x = static_cast<int>(points.x_px[i]), y = static_cast<int>(points.y_px[i]);
-        int own = 0, ownLit = 0, allLit = 0;
-        for (int s = 0; s < samples; s++) {
-            const bool isOwn = instance_.at(x, y, s) == points.instance[i];
-            own += isOwn ? 1 : 0;
-            ownLit += isOwn ? mask.at(x, y, s) : 0;
-            allLit += mask.at(x, y, s);
-        }
-        visibility[i] = own > 0 ? static_cast<double>(ownLit) / own : static_cast<double>(allLit) / samples;
+        kernel.x = static_cast<int>(points.x_px[i]), kernel.y = static_cast<int>(points.y_px[i]);
+        kernel.pointInstance = points.instance[i];
+        visibility[i] = kernel.litPartOfSamples(samples);
     }
 }
 

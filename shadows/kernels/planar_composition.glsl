@@ -7,8 +7,8 @@ real blockedPart(real blocked, real samples) { return blocked / samples; }
 // A blurred shadow: rounding may leave it above 1.
 real limitedShadow(real blurred) { return minOf(blurred, real(1.0)); }
 
-// What remains of the lights' irradiance at a texel. What is taken away is added up, so that nothing remains exactly 1; 1
-// if there is no irradiance.
+// What remains of the lights' irradiance at a texel. What is taken away is added up, so that exactly 1 remains where
+// that is nothing; 1 if there is no irradiance.
 real remainingLight(int lights) {
     real total = real(0.0);
     real taken = real(0.0);

@@ -1,5 +1,5 @@
-// What the texels around a point say about its light: one texel, or the windows of percentage-closer filtering. Specified
-// in shadows/shadow_map.h.
+// What the texels around a point say about its light: one texel, or the windows of percentage-closer filtering.
+// Specified in shadows/shadow_map.h.
 // needs: numeric/kernels/vector.glsl
 // needs: raster/kernels/texture_scope.glsl
 // needs: raster/kernels/sampler.glsl
@@ -81,8 +81,8 @@ LitTexels litTexels(PointFilter f, ShadowPoint p, TexelPair x, TexelPair y) {
     return lit;
 }
 
-// The mean of the bilinearly weighted comparisons, from the numbers of litTexels: compare first, weight after. Exactly 1
-// where all are lit.
+// The mean of the bilinearly weighted comparisons, from the numbers of litTexels: compare first, weight after. Exactly
+// 1 where all are lit.
 real litPart(real lit00, real lit10, real lit01, real lit11, real fractionX, real fractionY, int taps) {
     return bilinear(lit00, lit10, lit01, lit11, fractionX, fractionY) / real(taps * taps);
 }
@@ -92,5 +92,6 @@ real litOfWindow(PointFilter f, ShadowPoint p) {
     TexelPair x = windowStart(p.u, f.taps, f.fractionBits);
     TexelPair y = windowStart(p.v, f.taps, f.fractionBits);
     LitTexels lit = litTexels(f, p, x, y);
-    return litPart(toReal(lit.at00), toReal(lit.at10), toReal(lit.at01), toReal(lit.at11), x.fraction, y.fraction, f.taps);
+    return litPart(toReal(lit.at00), toReal(lit.at10), toReal(lit.at01), toReal(lit.at11), x.fraction, y.fraction,
+                   f.taps);
 }

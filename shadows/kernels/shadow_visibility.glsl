@@ -8,8 +8,8 @@
 // needs: shadows/kernels/shadow_filter.glsl
 // needs: shadows/kernels/shadow_disc.glsl
 
-// position, normal and face as of shadowPoint; turn: the number of the pixel's turn of the pattern (disc, soft). 1 where
-// nothing is compared: behind the light, and where nothing is drawn.
+// position, normal and face as of shadowPoint; turn: the number of the pixel's turn of the pattern (disc, soft). 1
+// where nothing is compared: behind the light, and where nothing is drawn.
 real pointVisibility(ShadowSpace s, PointFilter f, vec3 position, vec3 normal, vec3 face, integer turn) {
     ShadowPoint p = shadowPoint(s, position, normal, face);
     boolean isCompared = p.isInFront && isLayerDrawn(p.layer);
