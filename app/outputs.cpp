@@ -22,7 +22,8 @@ std::string outputsText() {
         "|\n|---|---|---|---|---|---|---|\n";
     for (const OutputDescription& output : outputDescriptions())
         for (const OutputPart& part : output.parts)
-            text += formatText("| `{}` | `{}` | {} | {} | {} | {} | {} |\n", output.name,
+            text += formatText("| `{}` | {}`{}` | {} | {} | {} | {} | {} |\n", output.name,
+                               output.file.empty() ? "" : formatText("of `*.{}.exr`: ", output.file),
                                joinText(part.channels, "`, `"), part.unit, part.range, part.pixel,
                                part.background, &part == &output.parts.front() ? output.meaning : "");
     return text;
@@ -38,7 +39,8 @@ Json outputsJson() {
                           {"range", part.range},
                           {"pixel", part.pixel},
                           {"background", part.background}});
-        outputs.append({{"name", output.name}, {"meaning", output.meaning}, {"parts", parts}});
+        outputs.append(
+            {{"name", output.name}, {"meaning", output.meaning}, {"file", output.file}, {"parts", parts}});
     }
     return outputs;
 }

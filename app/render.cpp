@@ -97,12 +97,22 @@ ExitCode runRender(const RenderVerb& verb) {
     for (size_t i = 0; i < files.size(); i++) {
         files[i]->write(isPng(verb.files[i]) ? encodePng(result.toned) : encodeExr(result.frame));
     }
+    // Outputs that are files of their own lie beside each EXR file.
+    std::vector<std::string> written = verb.files;
+    for (const std::string& file : verb.files)
+        for (const OutputFile& beside : result.files) {
+            if (isPng(file)) continue;
+            std::filesystem::path path = file;
+            written.push_back(path.replace_extension(beside.name + ".exr").string());
+            files.push_back(std::make_unique<AtomicFile>(written.back()));
+            files.back()->write(encodeExr(beside.frame));
+        }
     for (const auto& file : files) file->commit();
     progress.finish();
 
     for (const std::string& warning : result.warnings) printText(stderr, "etalon: warning: {}\n", warning);
     if (verb.json) {
-        printOut(jsonText({{"files", verb.files},
+        printOut(jsonText({{"files", written},
                            {"width", result.frame.width},
                            {"height", result.frame.height},
                            {"seconds", seconds},
@@ -116,9 +126,10 @@ ExitCode runRender(const RenderVerb& verb) {
                            {"warnings", result.warnings}}));
     } else {
         std::string text;
-        for (const std::string& file : verb.files)
-            text +=
-                formatText("{}: {}x{} in {:.2f} s\n", file, result.frame.width, result.frame.height, seconds);
+        for (size_t i = 0; i < verb.files.size(); i++)
+            text += formatText("{}: {}x{} in {:.2f} s\n", written[i], result.frame.width, result.frame.height,
+                               seconds);
+        for (size_t i = verb.files.size(); i < written.size(); i++) text += written[i] + "\n";
         if (verb.timings) text += timingsText(result.plan);
         printOut(text);
     }

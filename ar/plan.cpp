@@ -1,7 +1,6 @@
 #include "ar/plan.h"
 
 #include <algorithm>
-#include <bit>
 
 #include "ar/showing.h"
 #include "ar/surface_builder.h"
@@ -13,27 +12,7 @@ namespace etalon {
 namespace {
 
 constexpr std::string_view kVisibility = "visibility", kEnvironmentLight = "environment light";
-constexpr int kFacesPerCube = 6;
-constexpr uint64_t kBytesPerSample = 4 + 4 + 1;  // depth, id, stencil
 constexpr uint64_t kBytesPerFloat = 4;
-
-uint64_t squared(int size) { return static_cast<uint64_t>(size) * static_cast<uint64_t>(size); }
-
-// Of the images that a light's shadows are looked up in, and of what they are drawn into.
-uint64_t shadowMemory(const LightShadow& shadow, bool isDirectional) {
-    if (shadow.method == ShadowMethod::map)
-        return (isDirectional ? 1 : kFacesPerCube) * squared(shadow.map.size) *
-               (kBytesPerSample + 2 * sizeof(double));
-    if (shadow.method == ShadowMethod::planar)
-        return squared(shadow.planar.resolution) * (kBytesPerSample + sizeof(uint32_t) + sizeof(float));
-    return 0;
-}
-
-// Whether the whole number n > 0 is a number of the format.
-bool holds(const Format& format, int n) {
-    const int odd = n >> std::countr_zero(static_cast<unsigned>(n));
-    return odd >> format.significandBits == 0 && n <= largestFinite(format);
-}
 
 // Makes the passes, and makes those behind a pass again that has found something out. What runs refers to it.
 class Planner : public std::enable_shared_from_this<Planner> {
@@ -260,7 +239,7 @@ class Planner : public std::enable_shared_from_this<Planner> {
 
     // What each light asks for, if something lies in its way.
     void addShadows(PassList& list) {
-        shadows_.clear(), casting_.clear();
+        shadows_.clear(), casting_.clear(), mapFiles_.clear(), notMade_.clear();
         for (size_t l = 0; l < scene_.lights.size(); l++) {
             const SceneLight& light = scene_.lights[l];
             const bool isDirectional = light.kind == LightKind::directional;
@@ -303,7 +282,8 @@ class Planner : public std::enable_shared_from_this<Planner> {
                    bool isBlack, const std::string& about) {
         casting_.push_back(id);
         // Where the shadow itself is shown, also a black light has one.
-        const bool isOutput = asked("shadow");
+        const bool isMapOutput = asked("shadow_map") && shadow.method == ShadowMethod::map;
+        const bool isOutput = asked("shadow") || isMapOutput;
         const std::optional<ShadowFit> fit = showing_.fitOf(source, shadow);
         const std::string nothing =
             isBlack && !isOutput ? "the light is black" : showing_.whyNoShadow(source, shadow, fit, isOutput);
@@ -315,6 +295,8 @@ class Planner : public std::enable_shared_from_this<Planner> {
             textOf(formatText("{} of {}", passNameOf(shadow.method), nameOf(id)), about + why,
                    nothing.empty() ? "" : about + nothing, unneededShadow(), PassNumbers::fragment,
                    shadowMemory(shadow, source.kind == LightKind::directional));
+        if (isMapOutput && !nothing.empty())
+            notMade_.push_back(formatText("{} is not made: {}", text.name, nothing));
         if (shadow.method == ShadowMethod::volume) text.numbers = PassNumbers::none;
         text.isLookedUp = true;
         const auto addOf = [&](auto run) {
@@ -325,10 +307,12 @@ class Planner : public std::enable_shared_from_this<Planner> {
             case ShadowMethod::none:
                 break;
             case ShadowMethod::map:
-                addOf([this, id, fit, map = shadow.map](const PassContext& context, const Geometry& of,
-                                                        const SceneLights& lights) {
-                    return castByMap(settings_, context, of, lights, id, fit.value_or(ShadowFit{}), map);
+                addOf([this, id, fit, isMapOutput, map = shadow.map](
+                          const PassContext& context, const Geometry& of, const SceneLights& lights) {
+                    return castByMap(settings_, context, of, lights, id, fit.value_or(ShadowFit{}), map,
+                                     isMapOutput);
                 });
+                if (isMapOutput && nothing.empty()) mapFiles_.emplace_back(id, shadows_.back());
                 break;
             case ShadowMethod::volume:
                 addOf([id, fit](const PassContext&, const Geometry&, const SceneLights& lights) {
@@ -375,7 +359,7 @@ class Planner : public std::enable_shared_from_this<Planner> {
 
     // A cube map of the scene for each mirror that asks for one. Mirrors in it show the environment.
     void addCubes(PassList& list) {
-        cubes_.clear();
+        cubes_.clear(), cubeFiles_.clear();
         for (uint32_t i = 0; i < showing_.objects().size(); i++) {
             if (!showing_.hasCube(i)) continue;
             const uint64_t texels =
@@ -405,6 +389,12 @@ class Planner : public std::enable_shared_from_this<Planner> {
                 environmentCubeIf(showing_.cubeSeesMirror(i)), shadows_);
             list.passes.back().text.isLookedUp = true;
             if (nothing.empty() || everything_) cubes_.emplace_back(i, cube);
+            if (!asked("cube_map")) continue;
+            if (nothing.empty())
+                cubeFiles_.emplace_back(i, cube);
+            else
+                notMade_.push_back(
+                    formatText("cube map of {} is not made: {}", showing_.objects()[i].name, nothing));
         }
     }
 
@@ -656,12 +646,13 @@ class Planner : public std::enable_shared_from_this<Planner> {
         };
         const Occlusion aroundFragments =
             showing_.environmentIsDiffuse() || everything_ ? occlusionOfFragments_ : Occlusion{};
-        addTerm(list, ShadeOutput::irradiance, "irradiance", showing_.whyNoIrradiance(), addEnvironmentTo,
-                *lights_, illuminationIf(showing_.environmentLights()), viewShadowsIf(environmentCasts()),
-                aroundFragments);
-        addTerm(list, ShadeOutput::environment, "environment", showing_.whyNoEnvironment(), addEnvironmentTo,
-                *lights_, illuminationIf(showing_.environmentLights()), viewShadowsIf(environmentCasts()),
-                aroundFragments);
+        for (const ShadeOutput output : {ShadeOutput::irradiance, ShadeOutput::environment}) {
+            const bool isReflected = output == ShadeOutput::environment;
+            addTerm(list, output, isReflected ? "environment" : "irradiance",
+                    isReflected ? showing_.whyNoEnvironment() : showing_.whyNoIrradiance(), addEnvironmentTo,
+                    *lights_, illuminationIf(showing_.environmentLights()), viewShadowsIf(environmentCasts()),
+                    aroundFragments);
+        }
     }
 
     // How many channels an output has.
@@ -669,7 +660,7 @@ class Planner : public std::enable_shared_from_this<Planner> {
         uint64_t channels = 0;
         for (const OutputPart& part : findOutput(output)->parts)
             channels += part.image == ShadeOutput::shadows ? casting_.size() : part.channels.size();
-        return channels;
+        return findOutput(output)->file.empty() ? channels : 0;
     }
     void addShading(PassList& list) {
         uint64_t floats = 0;
@@ -725,6 +716,8 @@ class Planner : public std::enable_shared_from_this<Planner> {
             },
             made, isAnyShaded || everything_ ? ShadingIf{*results_->shading} : ShadingIf{});
 
+        addFiles(list);
+
         PassText png = textOf("tone mapping", "a PNG is written", "", "no PNG is written", PassNumbers::none,
                               pixels() * 3);
         png.isRoot = png_;
@@ -732,6 +725,29 @@ class Planner : public std::enable_shared_from_this<Planner> {
             list, std::move(png), Image<uint8_t>{},
             [this](const PassContext&, const Shading& shading) { return toneMapped(settings_, shading); },
             *results_->shading);
+    }
+
+    // Outputs that are files of their own.
+    void addFiles(PassList& list) {
+        const bool isAsked = asked("cube_map") || asked("shadow_map");
+        PassText text = textOf("files beside the image", "outputs that are files of their own", "",
+                               "no output is a file of its own");
+        text.isRoot = isAsked;
+        std::vector<uint32_t> instances;
+        std::vector<LightId> lights;
+        std::vector<Result<CubeRender>> cubes;
+        std::vector<Result<CastShadow>> maps;
+        for (const auto& [instance, cube] : cubeFiles_) instances.push_back(instance), cubes.push_back(cube);
+        for (const auto& [light, map] : mapFiles_) lights.push_back(light), maps.push_back(map);
+        results_->files = add(
+            list, std::move(text), OutputFiles{},
+            [this, instances, lights, notMade = notMade_](const PassContext& context, const Geometry& of,
+                                                          const std::vector<const CubeRender*>& cubeMaps,
+                                                          const std::vector<const CastShadow*>& shadows) {
+                return OutputFiles{filesOf(settings_, context, of, instances, cubeMaps, lights, shadows),
+                                   notMade};
+            },
+            geometry(), cubes, maps);
     }
 
     const Scene& scene_;
@@ -749,7 +765,9 @@ class Planner : public std::enable_shared_from_this<Planner> {
     std::vector<Result<CastShadow>> shadows_;
     std::vector<LightId> casting_;  // the lights that are known to have shadows
     std::optional<Result<std::optional<CubeMap<float>>>> environmentCube_;
-    std::vector<std::pair<uint32_t, Result<CubeRender>>> cubes_;
+    std::vector<std::pair<uint32_t, Result<CubeRender>>> cubes_, cubeFiles_;
+    std::vector<std::pair<LightId, Result<CastShadow>>> mapFiles_;
+    std::vector<std::string> notMade_;            // files that are asked for
     Occlusion occlusion_, occlusionOfFragments_;  // where surfaces are lit; of fragments in any case
     bool hasOcclusion_ = false;
     std::vector<Result<std::vector<VertexRadiance>>> vertices_;

@@ -58,6 +58,7 @@ struct PlanResults {
     std::optional<Result<EnvironmentImage>> environmentImage;
     std::optional<Result<Shading>> shading;
     std::optional<Result<Frame>> frame;
+    std::optional<Result<OutputFiles>> files;
     std::optional<Result<Image<uint8_t>>> toned;
 };
 

@@ -1,6 +1,7 @@
 #include "ar/plan_facts.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "shadows/casting_lights.h"
 
@@ -17,6 +18,20 @@ VisibilityFacts visibilityFacts(const VisibleScene& visible, size_t objects) {
             facts.objectVisible[visible.instanceOfDraw[visible.target.triangles[id].draw]] = true;
     }
     return facts;
+}
+
+uint64_t shadowMemory(const LightShadow& shadow, bool isDirectional) {
+    if (shadow.method == ShadowMethod::map)
+        return (isDirectional ? 1 : kFacesPerCube) * squared(shadow.map.size) *
+               (kBytesPerSample + 2 * sizeof(double));
+    if (shadow.method == ShadowMethod::planar)
+        return squared(shadow.planar.resolution) * (kBytesPerSample + sizeof(uint32_t) + sizeof(float));
+    return 0;
+}
+
+bool holds(const Format& format, int n) {
+    const int odd = n >> std::countr_zero(static_cast<unsigned>(n));
+    return odd >> format.significandBits == 0 && n <= largestFinite(format);
 }
 
 std::vector<EnvironmentCaster> castersOf(const Environment& environment,

@@ -1,4 +1,4 @@
-// What passes find out that the plan of those behind them depends on.
+// What passes find out that the plan of those behind them depends on, and what the plan counts with.
 #pragma once
 
 #include <optional>
@@ -33,6 +33,16 @@ struct PlanFacts {
 };
 
 VisibilityFacts visibilityFacts(const VisibleScene& visible, size_t objects);
+
+// Sizes, for what passes say of their memory.
+inline constexpr int kFacesPerCube = 6;
+inline constexpr uint64_t kBytesPerSample = 4 + 4 + 1;  // depth, id, stencil
+inline uint64_t squared(int size) { return static_cast<uint64_t>(size) * static_cast<uint64_t>(size); }
+// Of the images that a light's shadows are looked up in, and of what they are drawn into, in bytes.
+uint64_t shadowMemory(const LightShadow& shadow, bool isDirectional);
+
+// Whether the whole number n > 0 is a number of the format.
+bool holds(const Format& format, int n);
 
 // Which of the environment's lights cast shadows.
 std::vector<EnvironmentCaster> castersOf(const Environment& environment,

@@ -58,7 +58,15 @@ RenderResult renderScene(const Scene& scene, const RenderOptions& options) {
     const PlanResults& of = *plan.results;
     append(result.warnings, plan.value(*of.geometry).warnings);
     append(result.warnings, plan.value(*of.environmentImage).warnings);
+    append(result.warnings, plan.value(*of.files).warnings);
     result.frame = plan.value(*of.frame);
+    result.files = plan.value(*of.files).files;
+    const std::vector<std::string>& asked =
+        options.request.outputs.empty() ? scene.output.images : options.request.outputs;
+    const auto isShadow = [](const Channel& channel) { return channel.name.starts_with("shadow."); };
+    if (std::ranges::count(asked, "shadow") > 0 && std::ranges::none_of(result.frame.channels, isShadow))
+        result.warnings.push_back(formatText("{}: the output 'shadow' has no channel: no light casts shadows",
+                                             where(scene, scene.output.line)));
     result.toned = plan.value(*of.toned);
     result.raster = plan.value(*of.visibility).scene->statistics;
     result.shading = plan.value(*of.shading).statistics;

@@ -12,6 +12,7 @@ namespace etalon {
 
 struct RenderResult {
     Frame frame;                        // the outputs as channels, with metadata
+    std::vector<OutputFile> files;      // outputs that are files of their own
     Image<uint8_t> toned;               // the tone mapped beauty, where a PNG was asked for
     Plan plan;                          // as it ran: passes with their times, without their results
     std::vector<std::string> warnings;  // one line each

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "ar/surface_builder.h"
+#include "files/probe_file.h"
 #include "lighting/tone_map.h"
 #include "numeric/text.h"
 #include "raster/depth.h"
@@ -51,6 +52,26 @@ std::vector<std::string> channelsOf(const OutputPart& part, const std::vector<Li
     return names;
 }
 
+void addMetadata(Frame& frame, const SceneSettings& settings, const PassContext& context) {
+    frame.metadata["etalon.scene"] = settings.scene->file.filename().string();
+    frame.metadata["etalon.profile"] = std::string(context.profile.name);
+    frame.metadata["etalon.rules"] = std::to_string(kRulesVersion);
+}
+
+// How points of the world fall on a shadow map.
+std::string projectionText(const ShadowProjection& p) {
+    const auto of = [](const glm::dvec3& v) { return formatText("{} {} {}", v.x, v.y, v.z); };
+    std::string text = formatText("{}; origin {}",
+                                  p.isCube          ? "cube"
+                                  : p.isPerspective ? "perspective"
+                                                    : "parallel",
+                                  of(p.origin));
+    if (!p.isCube)
+        text += formatText("; right {}; down {}; forward {}", of(p.right), of(p.down), of(p.forward));
+    return text + formatText("; centre {} {}; scale {}; depth {} {}; near {}; far {}; border {}", p.centreU,
+                             p.centreV, p.scale, p.depthScale, p.depthOffset, p.near_m, p.far_m, p.border);
+}
+
 // The fraction of a pixel's samples that objects cover.
 Image<float> coverageOf(const VisibleView& visible) {
     const Image<uint32_t>& id = visible.scene->target.id;
@@ -61,6 +82,44 @@ Image<float> coverageOf(const VisibleView& visible) {
         coverage.values()[i] = static_cast<float>(covered) / static_cast<float>(id.channels());
     }
     return coverage;
+}
+
+OutputFile cubeMapFile(const SceneSettings& settings, const PassContext& context, uint32_t instance,
+                       const Geometry& geometry, const CubeRender& cube) {
+    Probe probe;
+    const int size = cube.radiance.faces[0].width();
+    probe.shape = {Mapping::cube, size, size};
+    probe.radiance.assign(cube.radiance.faces.begin(), cube.radiance.faces.end());
+    probe.distance_m.assign(cube.distance.faces.begin(), cube.distance.faces.end());
+    probe.position_m = geometry.surfaces.instances[instance].cubeCentre_m;
+    OutputFile file{formatText("cube_map.{}", instance + 1), frameOfProbe(probe)};
+    addMetadata(file.frame, settings, context);
+    file.frame.metadata["etalon.object"] = sceneObjects(*settings.scene)[instance].name;
+    return file;
+}
+
+OutputFile shadowMapFile(const SceneSettings& settings, const PassContext& context, const LightId& light,
+                         const ShadowMap& map) {
+    const int width = map.projection.width;
+    Image<float> plane(width, width * static_cast<int>(map.layers.size()));
+    plane.fill(map.holdsDistance() ? std::numeric_limits<float>::infinity() : 1);
+    for (size_t l = 0; l < map.layers.size(); l++) {
+        const ShadowLayer& layer = map.layers[l];
+        const size_t first = l * static_cast<size_t>(width) * static_cast<size_t>(width);
+        for (size_t i = 0; i < layer.stored.values().size(); i++)
+            plane.values()[first + i] =
+                static_cast<float>(depthFromStored(map.format(), layer.stored.values()[i]));
+        std::ranges::copy(layer.distance_m.values(),
+                          plane.values().begin() + static_cast<std::ptrdiff_t>(first));
+    }
+    OutputFile file{"shadow_map." + channelNameOf(light), {}};
+    file.frame.width = plane.width();
+    file.frame.height = plane.height();
+    file.frame.channels.push_back({map.holdsDistance() ? "distance" : "depth", std::move(plane)});
+    addMetadata(file.frame, settings, context);
+    file.frame.metadata["etalon.light"] = nameOf(light);
+    file.frame.metadata["etalon.projection"] = projectionText(map.projection);
+    return file;
 }
 
 }  // namespace
@@ -139,19 +198,21 @@ OutputChannels alphaChannels(const VisibleView& visible) { return {"alpha", {{"A
 
 CastShadow castByMap(const SceneSettings& settings, const PassContext& context, const Geometry& geometry,
                      const SceneLights& lights, const LightId& light, const ShadowFit& fit,
-                     const ShadowMapSettings& map) {
+                     const ShadowMapSettings& map, bool isKept) {
     ShadowMapSettings seeded = map;
     seeded.seed = settings.scene->render.seed;
     const auto maps = std::make_shared<ShadowMaps>(lights.lights().size());
-    maps->set(
-        lights.numberOf(light),
-        renderShadowMap(geometry.surfaces, geometry.placed, fit, seeded, context.profile, settings.raster),
-        context.profile, settings.raster.threads);
-    return {maps, {}, {}};
+    ShadowMap drawn =
+        renderShadowMap(geometry.surfaces, geometry.placed, fit, seeded, context.profile, settings.raster);
+    CastShadow cast;
+    if (isKept) cast.map = std::make_shared<const ShadowMap>(drawn);
+    maps->set(lights.numberOf(light), std::move(drawn), context.profile, settings.raster.threads);
+    cast.visibility = maps;
+    return cast;
 }
 
 CastShadow castByVolumes(const SceneLights& lights, const LightId& light, std::vector<uint32_t> casters) {
-    return {nullptr, CastShadow::Volume{lights.numberOf(light), std::move(casters)}, {}};
+    return {nullptr, CastShadow::Volume{lights.numberOf(light), std::move(casters)}, {}, nullptr};
 }
 
 CastShadow castOnPlanes(const SceneSettings& settings, const PassContext& context, const Geometry& geometry,
@@ -259,9 +320,7 @@ Frame frameOf(const SceneSettings& settings, const PassContext& context,
     Frame frame;
     frame.width = settings.view.width;
     frame.height = settings.view.height;
-    frame.metadata = {{"etalon.scene", settings.scene->file.filename().string()},
-                      {"etalon.profile", std::string(context.profile.name)},
-                      {"etalon.rules", std::to_string(kRulesVersion)}};
+    addMetadata(frame, settings, context);
     for (const OutputDescription& output : outputDescriptions()) {
         if (std::ranges::find(outputs, output.name) == outputs.end()) continue;
         for (const OutputChannels* of : made)
@@ -272,9 +331,25 @@ Frame frameOf(const SceneSettings& settings, const PassContext& context,
                 addPlanes(frame, shading.images[*part.image], channelsOf(part, casting), part.missing);
     }
     if (frame.channels.empty())
-        throw InputError(formatText("{}: the output 'shadow' alone is asked for, and no light casts shadows",
-                                    where(*settings.scene, settings.scene->output.line)));
+        throw InputError(formatText(
+            "{}: the image has no channel: 'shadow' has none where no light casts shadows, and what is "
+            "written to files of its own needs another output beside it",
+            where(*settings.scene, settings.scene->output.line)));
     return frame;
+}
+
+std::vector<OutputFile> filesOf(const SceneSettings& settings, const PassContext& context,
+                                const Geometry& geometry, const std::vector<uint32_t>& instances,
+                                const std::vector<const CubeRender*>& cubes,
+                                const std::vector<LightId>& lights,
+                                const std::vector<const CastShadow*>& shadows) {
+    std::vector<OutputFile> files;
+    for (size_t i = 0; i < instances.size(); i++)
+        files.push_back(cubeMapFile(settings, context, instances[i], geometry, *cubes[i]));
+    for (size_t i = 0; i < lights.size(); i++)
+        if (shadows[i]->map && !shadows[i]->map->layers.empty())
+            files.push_back(shadowMapFile(settings, context, lights[i], *shadows[i]->map));
+    return files;
 }
 
 Image<uint8_t> toneMapped(const SceneSettings& settings, const Shading& shading) {

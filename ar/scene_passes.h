@@ -75,7 +75,8 @@ struct CastShadow {
         std::vector<uint32_t> casters;
     };
     std::optional<Volume> volume;
-    std::vector<std::string> fallsOn;  // the objects that planar shadows fall on
+    std::vector<std::string> fallsOn;      // the objects that planar shadows fall on
+    std::shared_ptr<const ShadowMap> map;  // what `visibility` looks up, where it is kept
 };
 
 // What stands in the way of the lights in one view; null: nothing.
@@ -105,6 +106,16 @@ struct OutputChannels {
     std::vector<Channel> channels;
 };
 
+// A file beside the image: "a.NAME.exr" beside "a.exr".
+struct OutputFile {
+    std::string name;
+    Frame frame;
+};
+struct OutputFiles {
+    std::vector<OutputFile> files;
+    std::vector<std::string> warnings;  // of those that are not made
+};
+
 // What every pass of a scene runs with.
 struct SceneSettings {
     const Scene* scene = nullptr;
@@ -125,10 +136,10 @@ OutputChannels idChannels(const VisibleView& visible);
 OutputChannels coverageChannels(const VisibleView& visible);
 OutputChannels alphaChannels(const VisibleView& visible);
 
-// The map of the light, or its volumes' casters. casters: what it is fitted to.
+// The map of the light, or its volumes' casters. fit: what it is fitted to. isKept: also CastShadow::map.
 CastShadow castByMap(const SceneSettings& settings, const PassContext& context, const Geometry& geometry,
                      const SceneLights& lights, const LightId& light, const ShadowFit& fit,
-                     const ShadowMapSettings& map);
+                     const ShadowMapSettings& map, bool isKept);
 CastShadow castByVolumes(const SceneLights& lights, const LightId& light, std::vector<uint32_t> casters);
 CastShadow castOnPlanes(const SceneSettings& settings, const PassContext& context, const Geometry& geometry,
                         const SceneLights& lights, const LightId& light, const std::vector<bool>& receivers,
@@ -163,6 +174,13 @@ Shading shadeView(const SceneSettings& settings, const PassContext& context, con
 Frame frameOf(const SceneSettings& settings, const PassContext& context,
               const std::vector<std::string>& outputs, const std::vector<LightId>& casting,
               const std::vector<const OutputChannels*>& made, const Shading& shading);
+
+// The cube maps of instances, and the shadow maps of lights, as files. A map that is empty has none.
+std::vector<OutputFile> filesOf(const SceneSettings& settings, const PassContext& context,
+                                const Geometry& geometry, const std::vector<uint32_t>& instances,
+                                const std::vector<const CubeRender*>& cubes,
+                                const std::vector<LightId>& lights,
+                                const std::vector<const CastShadow*>& shadows);
 
 // The tone mapped beauty as a PNG holds it.
 Image<uint8_t> toneMapped(const SceneSettings& settings, const Shading& shading);

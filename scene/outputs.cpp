@@ -100,6 +100,24 @@ std::vector<OutputDescription> makeOutputs() {
          "environment's "
          "part of `diffuse`",
          {radiance({"environment.R", "environment.G", "environment.B"}, ShadeOutput::environment)}},
+        {"cube_map",
+         "for each mirror that is visible and shows the scene (`reflection = \"scene\"`) the cube map that "
+         "it shows, as a "
+         "light probe: a strip of faces in OpenEXR's layout, with the attribute `envmap`; ID is the mirror's "
+         "`id.object`",
+         {{{"R", "G", "B"}, {}, 0, kRadiance, kNotNegative, "one sample", "the environment"},
+          {{"distance"}, {}, 0, "m", "near and above", "one sample", "infinity"}},
+         "cube_map.ID"},
+        {"shadow_map",
+         "for each light with `shadow = \"map\"` what its map holds: depths as `depth.window` has them, or "
+         "with "
+         "`shadow_depth = \"linear\"`, but for directional lights, distances from the light. The six faces "
+         "of a cube lie "
+         "below each other, +X first, with their borders. The attribute `etalon.projection` says how points "
+         "fall on it",
+         {{{"depth"}, {}, 1, "1", "[0, 1]", "one sample", "1"},
+          {{"distance"}, {}, 0, "m", "0 and above", "one sample", "infinity"}},
+         "shadow_map.LIGHT"},
     };
 }
 

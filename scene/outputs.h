@@ -26,7 +26,8 @@ struct OutputDescription {
     std::string_view name;     // in scene files and --outputs
     std::string_view meaning;  // one line of Markdown
     std::vector<OutputPart> parts;
-    bool isFile = false;  // written as files of their own beside the image
+    // Of outputs that are files of their own beside the image: "a.NAME.exr" beside "a.exr"; "" of those in it.
+    std::string_view file = "";
 };
 
 // In the order in which a file has them.

@@ -97,6 +97,17 @@ class Render(CliCase):
         self.assertTrue(all(p["runs"] for p in report["passes"]))
         self.assertEqual((self.folder / "a.exr").read_bytes(), (self.folder / "b.exr").read_bytes())
 
+    def test_outputs_that_are_files_lie_beside_the_image(self):
+        light = '[[light]]\nkind = "directional"\ndirection = [-1, -1, -1]\nirradiance = [1, 1, 1]\nshadow = "map"\n'
+        self.scene(more=light + "shadow_size = 64\n")
+        report = json.loads(self.expect(0, "render", "scene.toml", "-o", "a.exr", "-o", "a.png", "--outputs",
+                                        "beauty,shadow,shadow_map", "--json").stdout)
+        self.assertEqual(report["files"], ["a.exr", "a.png", "a.shadow_map.light0.exr"])
+        self.assertEqual(self.images(), ["a.exr", "a.png", "a.shadow_map.light0.exr"])
+        self.expect(0, "compare", "a.shadow_map.light0.exr", "a.shadow_map.light0.exr")
+        self.expect_error("has no channel", "render", "scene.toml", "-o", "b.exr", "--outputs", "shadow_map")
+        self.assertNotIn("b.exr", self.images())
+
     def test_progress_shows_on_a_terminal_after_a_second(self):
         def shown(width):
             master, terminal = pty.openpty()

@@ -39,11 +39,11 @@ bool haveSameBits(std::span<const T> a, std::span<const T> b) {
 }
 
 // The names of the channels that differ.
-std::string differences(const RenderResult& a, const RenderResult& b) {
+std::string differences(const Frame& a, const Frame& b) {
     std::string names;
-    REQUIRE(a.frame.channels.size() == b.frame.channels.size());
-    for (size_t c = 0; c < a.frame.channels.size(); c++) {
-        const Channel &of = a.frame.channels[c], &to = b.frame.channels[c];
+    REQUIRE(a.channels.size() == b.channels.size());
+    for (size_t c = 0; c < a.channels.size(); c++) {
+        const Channel &of = a.channels[c], &to = b.channels[c];
         REQUIRE(of.name == to.name);
         const bool same = std::visit(
             [&](const auto& image) {
@@ -52,6 +52,15 @@ std::string differences(const RenderResult& a, const RenderResult& b) {
             },
             of.values);
         if (!same) names += of.name + " ";
+    }
+    return names;
+}
+std::string differences(const RenderResult& a, const RenderResult& b) {
+    std::string names = differences(a.frame, b.frame);
+    REQUIRE(a.files.size() == b.files.size());
+    for (size_t f = 0; f < a.files.size(); f++) {
+        REQUIRE(a.files[f].name == b.files[f].name);
+        if (!differences(a.files[f].frame, b.files[f].frame).empty()) names += a.files[f].name + " ";
     }
     const bool isPng = a.plan.find("tone mapping")->runs;
     return !isPng || haveSameBits(a.toned.values(), b.toned.values()) ? names : names + "PNG";

@@ -4,10 +4,14 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <fstream>
 
 #include "ar/render_scene.h"
+#include "files/image_io.h"
+#include "files/probe_file.h"
 #include "numeric/transform.h"
 #include "numeric/vectors.h"
+#include "tests/support/scratch_folder.h"
 
 using namespace etalon;
 
@@ -221,6 +225,9 @@ TEST_CASE("LightsOfAnEnvironmentHaveShadowChannels") {
         lost += double{valuesOf(open, "irradiance.G")[i]} - double{valuesOf(frame, "irradiance.G")[i]};
     }
     CHECK(lost > 0);
+    scene.output.images = {"shadow", "ids"};
+    REQUIRE(renderScene(scene, {}).warnings.size() == 1);
+    CHECK(renderScene(scene, {}).warnings[0].find("'shadow' has no channel") != std::string::npos);
     scene.output.images = {"shadow"};
     CHECK_THROWS_AS(frameOf(scene), InputError);
 }
@@ -315,6 +322,90 @@ TEST_CASE("OccludedIrradianceIsWhatTheDiffuseLightIsMadeOf") {
     for (size_t i = 0; i < valuesOf(frame, "irradiance.R").size(); i++)
         CHECK(valuesOf(frame, "irradiance.R")[i] ==
               doctest::Approx(kPi * double{valuesOf(frame, "occlusion.open")[i]}).epsilon(5e-3));
+}
+
+// A mirror of the scene between the camera and the wall: its cube map, as a file, is a probe.
+TEST_CASE("CubeMapsOfMirrorsAreProbes") {
+    const test::ScratchFolder folder;
+    std::ofstream(folder / "mirror.obj") << "v -0.2 -0.2 0\nv 0.2 -0.2 0\nv 0 0.2 0\nf 1 2 3\n";
+    Scene scene = wallScene({"ids", "cube_map"});
+    Material mirror;
+    mirror.name = "mirror";
+    mirror.kind = MaterialKind::mirror;
+    mirror.reflectance = glm::dvec3(1);
+    scene.materials.push_back(mirror);
+    MeshObject mesh;
+    mesh.name = "mirror";
+    mesh.file = folder / "mirror.obj";
+    mesh.material = 1;
+    mesh.objectToWorld = {translation({0, 0, -1})};
+    mesh.reflection = Reflection::scene;
+    mesh.cubeSize = 8;
+    scene.meshes = {mesh};
+    scene.ambient = glm::dvec3(1);
+    scene.environment.kind = EnvironmentKind::constant;
+    scene.environment.constant = glm::dvec3(0.125);
+    const RenderResult result = renderScene(scene, {});
+    REQUIRE(result.files.size() == 1);
+    CHECK(result.files[0].name == "cube_map.1");
+    CHECK(result.warnings.empty());
+    CHECK_FALSE(result.plan.find("mirror")->runs);
+    writeExr(result.files[0].frame, folder / "cube.exr");
+    const Probe probe = loadProbe(folder / "cube.exr");
+    CHECK(probe.shape == ProbeShape{Mapping::cube, 8, 8});
+    CHECK(probe.position_m.z == doctest::Approx(-1));
+    // Behind it the wall, 2 m away, lit by the ambient light; before it the environment.
+    const auto face = [](CubeFace f) { return static_cast<size_t>(f); };
+    CHECK(probe.radiance[face(CubeFace::minusZ)].at(4, 4, 1) == doctest::Approx(kAlbedo.y));
+    CHECK(probe.distance_m[face(CubeFace::minusZ)].at(4, 4) == doctest::Approx(2 * std::sqrt(1 + 2.0 / 64)));
+    CHECK(probe.radiance[face(CubeFace::plusZ)].at(4, 4, 1) == 0.125f);
+    CHECK(probe.distance_m[face(CubeFace::plusZ)].at(4, 4) == INFINITY);
+    // What is not made is said.
+    scene.meshes[0].objectToWorld = {translation({0, 0, 1})};
+    const RenderResult hidden = renderScene(scene, {});
+    CHECK(hidden.files.empty());
+    REQUIRE(hidden.warnings.size() == 1);
+    CHECK(hidden.warnings[0] == "cube map of mirror is not made: its mirror is not visible");
+}
+
+TEST_CASE("ShadowMapsAreFiles") {
+    Scene scene = blockedScene({"ids", "shadow_map"}, ShadowMethod::map);
+    RenderResult result = renderScene(scene, {});
+    REQUIRE(result.files.size() == 1);
+    CHECK(result.files[0].name == "shadow_map.light0");
+    const Frame& map = result.files[0].frame;
+    CHECK(map.width == 256);
+    CHECK(map.height == 256);
+    CHECK(map.metadata.at("etalon.projection").starts_with("parallel; "));
+    // The square is drawn and nothing around it.
+    size_t drawn = 0;
+    for (const float depth : valuesOf(map, "depth")) {
+        CHECK(depth >= 0);
+        CHECK(depth <= 1);
+        drawn += depth < 1 ? 1 : 0;
+    }
+    CHECK(drawn > valuesOf(map, "depth").size() / 4);
+    CHECK_FALSE(result.plan.find("diffuse")->runs);
+    // Of a point light: six faces, with their borders.
+    scene.lights[0].kind = LightKind::point;
+    scene.lights[0].position = {-1, 0, -1};
+    scene.lights[0].intensity = glm::dvec3(1);
+    scene.lights[0].shadow.map.depth = ShadowDepth::linear;
+    result = renderScene(scene, {});
+    REQUIRE(result.files.size() == 1);
+    CHECK(result.files[0].frame.height == 6 * result.files[0].frame.width);
+    float nearest = INFINITY;
+    for (const float distance : valuesOf(result.files[0].frame, "distance"))
+        nearest = std::min(nearest, distance);
+    CHECK(nearest == doctest::Approx(1).epsilon(1e-3));
+    // Nothing stands in the way.
+    scene.planes.resize(1);
+    result = renderScene(scene, {});
+    CHECK(result.files.empty());
+    REQUIRE(result.warnings.size() == 1);
+    CHECK(result.warnings[0].find("shadow map of light0 is not made: ") == 0);
+    scene.output.images = {"shadow_map"};
+    CHECK_THROWS_AS(renderScene(scene, {}), InputError);
 }
 
 TEST_CASE("OutputsRunTheirPassesAndNoOthers") {

@@ -205,8 +205,11 @@ class Maker {
             const auto number = static_cast<size_t>(random_.below(static_cast<int>(outputNames().size())));
             output.images = {std::string(outputNames()[number])};
         }
-        // Has no channel where no light casts.
-        if (output.images == std::vector<std::string>{"shadow"}) output.images.emplace_back("ids");
+        // Those that may have no channel are not alone.
+        const auto hasChannel = [](const std::string& name) {
+            return name != "shadow" && findOutput(name)->file.empty();
+        };
+        if (std::ranges::none_of(output.images, hasChannel)) output.images.emplace_back("ids");
         output.toneMap = static_cast<ToneMap>(random_.below(static_cast<int>(kNames<ToneMap>.size())));
     }
 
