@@ -95,7 +95,8 @@ ExitCode runRender(const RenderVerb& verb) {
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     progress.show("writing");
     for (size_t i = 0; i < files.size(); i++) {
-        files[i]->write(isPng(verb.files[i]) ? encodePng(result.toned) : encodeExr(result.frame));
+        files[i]->write(isPng(verb.files[i]) ? encodePng(result.toned)
+                                             : encodeExr(result.frame, options.raster.threads));
     }
     for (const auto& file : files) file->commit();
     progress.finish();
