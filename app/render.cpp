@@ -95,7 +95,8 @@ ExitCode runRender(const RenderVerb& verb) {
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     progress.show("writing");
     for (size_t i = 0; i < files.size(); i++) {
-        files[i]->write(isPng(verb.files[i]) ? encodePng(result.toned) : encodeExr(result.frame));
+        files[i]->write(isPng(verb.files[i]) ? encodePng(result.toned)
+                                             : encodeExr(result.frame, options.raster.threads));
     }
     // Outputs that are files of their own lie beside each EXR file.
     std::vector<std::string> written = verb.files;

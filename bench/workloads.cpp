@@ -3,10 +3,10 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <utility>
 
 #include "numeric/check.h"
+#include "numeric/random.h"
 #include "numeric/vectors.h"
 
 namespace etalon::bench {
@@ -14,33 +14,13 @@ namespace {
 
 using glm::dvec3;
 
-double dot(const dvec3& a, const dvec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-dvec3 cross(const dvec3& a, const dvec3& b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-dvec3 unit(const dvec3& a) { return a / std::sqrt(dot(a, a)); }
-
-// SplitMix64: the same numbers on every machine.
-class Random {
-  public:
-    // In [low, high).
-    double between(double low, double high) {
-        uint64_t z = state_ += 0x9E3779B97F4A7C15u;
-        z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
-        z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
-        return low + (high - low) * (static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53);
-    }
-
-  private:
-    uint64_t state_ = 0;
-};
-
 void addVertex(SurfaceMesh& mesh, const dvec3& position, const dvec3& normal) {
     mesh.positions.emplace_back(position);
     mesh.normals.emplace_back(normal);
 }
 
-// A point of the torus knot's tube; u runs along the knot, v around the tube.
+// A point of the torus knot's tube; u runs along the knot, v around the tube. The knot of tests and experiments is
+// torusKnotMesh() (bitcheck/inputs.h); this one is rippled, and its triangles are those that every measured row is of.
 dvec3 knotPoint(double u, double v) {
     constexpr double kRadius = 0.78, kTube = 0.32, kRipple = 0.03, kStep = 1e-4;
     const auto centre = [](double t) {
@@ -48,9 +28,9 @@ dvec3 knotPoint(double u, double v) {
         return kRadius * dvec3(r * std::cos(2 * t), std::cos(3 * t), r * std::sin(2 * t));
     };
     const dvec3 here = centre(u), ahead = centre(u + kStep), behind = centre(u - kStep);
-    const dvec3 tangent = unit(ahead - behind);
-    const dvec3 side = unit(cross(tangent, ahead + behind - 2.0 * here));
-    const dvec3 inward = cross(side, tangent);
+    const dvec3 tangent = unitOf(ahead - behind);
+    const dvec3 side = unitOf(crossOf(tangent, ahead + behind - 2.0 * here));
+    const dvec3 inward = crossOf(side, tangent);
     const double radius = kTube + kRipple * std::sin(9 * v + 30 * u);
     return here + radius * (std::cos(v) * inward + std::sin(v) * side);
 }
@@ -62,7 +42,7 @@ void addKnot(SurfaceMesh& mesh, int segments, int sides) {
         for (int j = 0; j < sides; j++) {
             const double u = 2 * kPi * i / segments, v = 2 * kPi * j / sides;
             const dvec3 p = knotPoint(u, v);
-            addVertex(mesh, p, unit(cross(knotPoint(u, v + kStep) - p, knotPoint(u + kStep, v) - p)));
+            addVertex(mesh, p, unitOf(crossOf(knotPoint(u, v + kStep) - p, knotPoint(u + kStep, v) - p)));
         }
     const auto at = [&](int i, int j) { return static_cast<uint32_t>((i % segments) * sides + j % sides); };
     for (int i = 0; i < segments; i++)
@@ -98,9 +78,9 @@ View knotView(int width, int height) {
     camera.cx = width / 2.0;
     camera.cy = height / 2.0;
     camera.position = {0.5, 1.5, 4};
-    camera.backward = unit(camera.position);
-    camera.right = unit(cross({0, 1, 0}, camera.backward));
-    camera.up = cross(camera.backward, camera.right);
+    camera.backward = unitOf(camera.position);
+    camera.right = unitOf(crossOf({0, 1, 0}, camera.backward));
+    camera.up = crossOf(camera.backward, camera.right);
     camera.near_m = 0.5;
     camera.far_m = 20;
     return cameraView(camera);
@@ -125,14 +105,14 @@ void addTriangle(SurfaceMesh& mesh, const std::array<dvec3, 3>& corners) {
 
 // Each corner up to `reach` in x and y from a random centre, at a random depth.
 void addSoup(SurfaceMesh& mesh, int triangles, double reachX, double reachY) {
-    Random random;
+    Random random(0);
     for (int i = 0; i < triangles; i++) {
-        const double x = random.between(-1, 1), y = random.between(-1, 1);
+        const double x = random.uniform(-1, 1), y = random.uniform(-1, 1);
         std::array<dvec3, 3> corners;
         for (dvec3& corner : corners) {
-            corner.x = random.between(x - reachX, x + reachX);
-            corner.y = random.between(y - reachY, y + reachY);
-            corner.z = random.between(0, 1);
+            corner.x = random.uniform(x - reachX, x + reachX);
+            corner.y = random.uniform(y - reachY, y + reachY);
+            corner.z = random.uniform(0, 1);
         }
         addTriangle(mesh, corners);
     }

@@ -26,8 +26,9 @@ struct Workload {
 //                    kWidth x kHeight pixels
 //   1k-small         the same 1k in 64 x 48 pixels
 //   large            500 triangles of about an eighth of the screen's area, some of it outside, at random
-//   depths sub-pixel        500000 triangles inside squares of one pixel layers           kLayers triangles
-//   that fill kLayerSize^2 pixels, each nearer than the one before
+//                    depths
+//   sub-pixel        500000 triangles inside squares of one pixel
+//   layers           kLayers triangles that fill kLayerSize^2 pixels, each nearer than the one before
 // Throws PreconditionError for another name.
 const Workload& workload(const std::string& name, int lights);
 

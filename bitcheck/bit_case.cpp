@@ -14,6 +14,7 @@ std::vector<BitCase> bitCases() {
     addShadowCases(cases);
     addVolumeCases(cases);
     addPlanarCases(cases);
+    addLightingCases(cases);
     return cases;
 }
 

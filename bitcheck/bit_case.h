@@ -29,6 +29,7 @@ void addImageCases(std::vector<BitCase>& cases);
 void addLightCases(std::vector<BitCase>& cases);
 void addMappingCases(std::vector<BitCase>& cases);
 void addShadingCases(std::vector<BitCase>& cases);
+void addLightingCases(std::vector<BitCase>& cases);
 void addIrradianceCases(std::vector<BitCase>& cases);
 void addShadowCases(std::vector<BitCase>& cases);
 void addVolumeCases(std::vector<BitCase>& cases);

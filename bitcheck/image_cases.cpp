@@ -1,4 +1,5 @@
-// Passes from image to image: blur, lat-long to cube, tone mapping.
+// Passes from image to image: blur, lat-long to cube, tone mapping; and the samples of files.
+#include <algorithm>
 #include <limits>
 
 #include "bitcheck/bit_case.h"
@@ -9,6 +10,7 @@
 #include "raster/blur.h"
 #include "raster/names.h"
 #include "raster/profile.h"
+#include "raster/stored_sample.h"
 
 namespace etalon {
 namespace {
@@ -66,6 +68,18 @@ std::vector<BitPlane> toneMaps(int threads) {
     return planes;
 }
 
+// Every code.
+std::vector<BitPlane> storedSamples() {
+    Image<float> halves(256, 256), words(256, 256), bytes(256, 1);
+    for (uint32_t code = 0; code < 0x10000; code++) {
+        halves.values()[code] = floatOfHalf(static_cast<uint16_t>(code));
+        words.values()[code] = floatOfCode(static_cast<uint16_t>(code));
+    }
+    for (uint32_t code = 0; code < 0x100; code++)
+        bytes.values()[code] = floatOfCode(static_cast<uint8_t>(code));
+    return {planeOf("half", halves), planeOf("16-bit", words), planeOf("8-bit", bytes)};
+}
+
 }  // namespace
 
 void addImageCases(std::vector<BitCase>& cases) {
@@ -80,6 +94,8 @@ void addImageCases(std::vector<BitCase>& cases) {
         add("environment/" + std::string(profile.name), "lat-long environment to the cube map of mirrors",
             [&profile](int threads) { return environmentOf(profile, threads); });
     add("tone-map/f32", "exposure, operators, sRGB", toneMaps);
+    cases.push_back({"image/stored-samples", "halves and codes of image files as floats", false, false, false,
+                     [](const RasterOptions&) { return storedSamples(); }});
 }
 
 }  // namespace etalon

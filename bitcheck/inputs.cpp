@@ -98,12 +98,10 @@ glm::dvec3 unit(const glm::dvec3& v) {
     return {v.x / length, v.y / length, v.z / length};
 }
 
-// The (2, 3) torus knot of radius 1 and 0.4.
-glm::dvec3 knotCentre(double turn) {
-    constexpr double kBig = 1.0, kSmall = 0.4;
+glm::dvec3 knotCentre(const KnotShape& shape, double turn) {
     const double a = 2.0 * kTurn_rad * turn, b = 3.0 * kTurn_rad * turn;
-    const double radius = kBig + kSmall * cosOf(b);
-    return {radius * cosOf(a), kSmall * sinOf(b), radius * sinOf(a)};
+    const double radius_m = shape.radius_m + shape.swing_m * cosOf(b);
+    return {radius_m * cosOf(a), shape.rise_m * sinOf(b), radius_m * sinOf(a)};
 }
 
 // Two triangles for each cell of a grid of columns x rows vertices that is closed in both directions or none.
@@ -151,20 +149,20 @@ std::vector<ClipVertex> triangleSoup(Random& random, Soup family, int count, con
     return vertices;
 }
 
-SurfaceMesh torusKnotMesh(int along, int around) {
-    constexpr double kTubeRadius = 0.18, kStep = 1.0 / 4096;
+SurfaceMesh torusKnotMesh(int along, int around, const KnotShape& shape) {
+    constexpr double kStep = 1.0 / 4096;
     SurfaceMesh mesh;
     for (int j = 0; j < around; j++)
         for (int i = 0; i < along; i++) {
             const double turn = static_cast<double>(i) / along;
-            const glm::dvec3 centre = knotCentre(turn), next = knotCentre(turn + kStep);
+            const glm::dvec3 centre = knotCentre(shape, turn), next = knotCentre(shape, turn + kStep);
             const glm::dvec3 tangent = unit({next.x - centre.x, next.y - centre.y, next.z - centre.z});
             const glm::dvec3 side = unit(crossOf(tangent, {0.1, 1, 0.2})), up = crossOf(side, tangent);
             const double angle_rad = kTurn_rad * j / around, c = cosOf(angle_rad), s = sinOf(angle_rad);
             glm::dvec3 normal, position;
             for (int k = 0; k < 3; k++) {
                 normal[k] = c * side[k] + s * up[k];
-                position[k] = centre[k] + kTubeRadius * normal[k];
+                position[k] = centre[k] + shape.tube_m * normal[k];
             }
             mesh.positions.push_back(narrow(position));
             mesh.normals.push_back(narrow(normal));

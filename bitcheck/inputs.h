@@ -41,7 +41,12 @@ enum class Soup : uint8_t {
 std::vector<ClipVertex> triangleSoup(Random& random, Soup family, int count, const Viewport& viewport);
 
 // Closed and open meshes, lengths in metres, with normals of about unit length.
-SurfaceMesh torusKnotMesh(int along, int around);
+// torusKnotMesh: a tube around the (2, 3) torus knot about +Y, 2 x along x around triangles, counter-clockwise from
+// outside. Its middle at the angle 2t is radius_m + swing_m cos(3t) from the axis, rise_m sin(3t) above the origin.
+struct KnotShape {
+    double radius_m = 1, swing_m = 0.4, rise_m = 0.4, tube_m = 0.18;
+};
+SurfaceMesh torusKnotMesh(int along, int around, const KnotShape& shape = {});
 SurfaceMesh sphereMesh(int columns, int rows);
 SurfaceMesh groundMesh(float halfSize);
 

@@ -66,6 +66,22 @@ std::vector<BitPlane> harmonicsInDouble(int threads) {
             planeOfValues("minimal-window", scaleBands(soft, minimalWindow(soft).factors).coefficients)};
 }
 
+// Maps of irradiance, and what stands for one.
+std::vector<BitPlane> irradianceMaps(int threads) {
+    const Probe sky = skyProbe(), cube = cubeProbe(threads);
+    const ProbeShape shape{Mapping::cube, 5, 5};
+    std::vector<BitPlane> planes;
+    const auto add = [&](const std::string& name, const Probe& map) {
+        for (size_t f = 0; f < map.radiance.size(); f++)
+            planes.push_back(planeOf(name + std::to_string(f), map.radiance[f]));
+    };
+    add("exact-", irradianceProbe(sky, shape, Arithmetic::fp64, threads));
+    add("harmonics-",
+        irradianceProbe(projectHarmonics(sky, 2, threads), shape, sky, Arithmetic::fp64, threads));
+    add("blurred-", blurredDiffuseMap(cube, 13, 6.5, Arithmetic::fp32, threads));
+    return planes;
+}
+
 }  // namespace
 
 void addIrradianceCases(std::vector<BitCase>& cases) {
@@ -75,6 +91,8 @@ void addIrradianceCases(std::vector<BitCase>& cases) {
     };
     add("harmonics/double", "spherical harmonics by azimuthal moments, rotation, product, window",
         harmonicsInDouble);
+    add("irradiance/maps", "irradiance over the texels of a cube, exact and of harmonics; a blurred map",
+        irradianceMaps);
     for (const Profile& profile : profiles()) {
         add("harmonics/" + std::string(profile.name), "spherical harmonics of a probe, and their values",
             [&profile](int threads) { return harmonicsOf(profile, threads); });

@@ -1,7 +1,9 @@
-// Passes between the mappings of a probe.
+// Passes between the mappings of a probe, its levels and its layouts.
 #include "bitcheck/bit_case.h"
 #include "bitcheck/inputs.h"
+#include "probes/cube_layout.h"
 #include "probes/mapping_passes.h"
+#include "probes/mip_pyramid.h"
 #include "raster/profile.h"
 
 namespace etalon {
@@ -42,6 +44,38 @@ std::vector<BitPlane> conversionsOf(const Profile& profile, int threads) {
     return planes;
 }
 
+// Of a lat-long probe of odd sizes with a part that is not valid, and of a cube.
+std::vector<BitPlane> levels(int threads) {
+    Probe sky = probeOf(skyImage(29, 13), Mapping::latLong);
+    sky.valid.assign(1, Image<uint8_t>(29, 13));
+    Random random(31);
+    for (uint8_t& valid : sky.valid[0].values()) valid = random.chance(0.7) ? 1 : 0;
+    ProbeConversion toCube;
+    toCube.shape = {Mapping::cube, 9, 9};
+    Probe cube = convertProbe(probeOf(skyImage(32, 16), Mapping::latLong), toCube, Arithmetic::fp64, threads);
+    std::vector<BitPlane> planes;
+    for (const auto& [name, probe] : {std::pair("lat-long-", &sky), std::pair("cube-", &cube)}) {
+        const std::vector<Probe> pyramid = mipPyramid(*probe, threads);
+        for (size_t level = 1; level < pyramid.size(); level++)
+            addProbe(planes, name + std::to_string(level) + "-", pyramid[level]);
+    }
+    return planes;
+}
+
+std::vector<BitPlane> layouts() {
+    CubeMap<float> cube(5, 2);
+    Random random(32);
+    for (Image<float>& face : cube.faces)
+        for (float& texel : face.values()) texel = static_cast<float>(random.uniform(0, 1));
+    std::vector<BitPlane> planes;
+    for (const auto& [name, layout] : {std::pair("openexr-strip", CubeLayout::openExrStrip),
+                                       std::pair("vertical-strip", CubeLayout::verticalStrip),
+                                       std::pair("horizontal-cross", CubeLayout::horizontalCross),
+                                       std::pair("vertical-cross", CubeLayout::verticalCross)})
+        planes.push_back(planeOf(name, packCube(cube, layout)));
+    return planes;
+}
+
 }  // namespace
 
 void addMappingCases(std::vector<BitCase>& cases) {
@@ -50,6 +84,10 @@ void addMappingCases(std::vector<BitCase>& cases) {
             {"convert/" + std::string(profile.name),
              "probes between mappings, and a cube map as lat-long image", true, true, false,
              [&profile](const RasterOptions& options) { return conversionsOf(profile, options.threads); }});
+    cases.push_back({"probe/levels", "levels of half the size of a lat-long and a cube probe", false, true,
+                     false, [](const RasterOptions& options) { return levels(options.threads); }});
+    cases.push_back({"probe/layouts", "the faces of a cube in one image", false, false, false,
+                     [](const RasterOptions&) { return layouts(); }});
 }
 
 }  // namespace etalon

@@ -75,10 +75,11 @@ std::vector<std::byte> encodeExr(const Frame& frame, int threads) {
     // Blocks of rows are compressed side by side; the bytes are the same for any number of threads.
     constexpr int kRowsPerBlock = 16;  // of this compression
     const int blocks = (frame.height - 1) / kRowsPerBlock + 1;
-    // The library counts helpers: with 0 the calling thread does the work.
+    // The library counts helpers: with 0 the calling thread does the work. Its pool is one for the process, and may
+    // have more of them than are asked for: from an earlier file, or from what read one.
     const int helpers = std::min(threads == 0 ? hardwareThreads() : threads, blocks);
     const int pool = helpers > 1 ? helpers : 0;
-    if (Imf::globalThreadCount() < pool) Imf::setGlobalThreadCount(pool);
+    if (Imf::globalThreadCount() != pool) Imf::setGlobalThreadCount(pool);
     MemoryStream stream;
     {
         Imf::OutputFile file(stream, header, pool);

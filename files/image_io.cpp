@@ -14,6 +14,7 @@
 #include "files/atomic_file.h"
 #include "files/image_module.h"
 #include "numeric/text.h"
+#include "raster/stored_sample.h"
 
 namespace etalon {
 namespace {
@@ -78,17 +79,8 @@ bool isDamagedPng(const std::filesystem::path& path) {
     return true;
 }
 
-float halfToFloat(uint16_t half) {
-    const uint32_t sign = uint32_t{half & 0x8000u} << 16, exponent = (half >> 10) & 31u,
-                   fraction = half & 0x3ffu;
-    if (exponent == 31) return std::bit_cast<float>(sign | 0x7f800000u | fraction << 13);
-    if (exponent != 0) return std::bit_cast<float>(sign | (exponent + 112) << 23 | fraction << 13);
-    const float magnitude = static_cast<float>(fraction) * 0x1p-24f;  // subnormal or zero; exact
-    return sign != 0 ? -magnitude : magnitude;
-}
-
 float sampleToFloat(const std::byte* bytes, SampleType type) {
-    if (type == SampleType::uint8) return static_cast<float>(std::to_integer<int>(*bytes)) / 255.0f;
+    if (type == SampleType::uint8) return floatOfCode(std::to_integer<uint8_t>(*bytes));
     if (type == SampleType::float32) {
         float value;
         std::memcpy(&value, bytes, sizeof value);
@@ -96,7 +88,7 @@ float sampleToFloat(const std::byte* bytes, SampleType type) {
     }
     uint16_t code;
     std::memcpy(&code, bytes, sizeof code);
-    return type == SampleType::float16 ? halfToFloat(code) : static_cast<float>(code) / 65535.0f;
+    return type == SampleType::float16 ? floatOfHalf(code) : floatOfCode(code);
 }
 
 // Everything that can be told before the library opens the file.

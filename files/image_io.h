@@ -33,7 +33,8 @@ Image<float> rgbOf(const Frame& frame, const std::filesystem::path& path);
 // The bytes of an EXR file: float32 and uint32 channels under their own names, lossless zip compression, the
 // metadata as text attributes (but for the names of the format's own, such as "type"; "envmap" with "latlong" or
 // "cube" becomes OpenEXR's own attribute). The same frame gives the same bytes for any number of threads (0: all of the
-// machine). The frame must pass checkFrame and be at least 1x1.
+// machine); no more than that many compress it, and OpenEXR's pool of threads has then that many. The frame must pass
+// checkFrame and be at least 1x1.
 std::vector<std::byte> encodeExr(const Frame& frame, int threads = 0);
 
 // The bytes of an 8-bit PNG of three planes R, G, B, marked as sRGB; at least 1x1.

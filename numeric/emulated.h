@@ -19,6 +19,7 @@
 #include "numeric/emulated_format.h"
 #include "numeric/kernel_types.h"
 #include "numeric/lanes.h"
+#include "numeric/random.h"
 #include "numeric/rounded.h"
 
 namespace etalon {
@@ -188,24 +189,17 @@ struct EmulatedOperations {
     [[gnu::noinline, gnu::pure]] static D bound(Operation operation, D a, D b) {
         using Bits = DrawBits<D>;
         using Unsigned = typename Bits::Unsigned;
-        const uint64_t start = mixed(emulatedFormat.seed + static_cast<uint64_t>(operation));
+        const uint64_t start = splitMix64(emulatedFormat.seed + static_cast<uint64_t>(operation));
         const Unsigned items = operation == Operation::conversion ? Unsigned{} : Bits::items();
-        Unsigned hash = mixed(items ^ start);
-        hash = mixed(hash ^ __builtin_bit_cast(Unsigned, a));
-        hash = mixed(hash ^ __builtin_bit_cast(Unsigned, b));
+        Unsigned hash = splitMix64(items ^ start);
+        hash = splitMix64(hash ^ __builtin_bit_cast(Unsigned, a));
+        hash = splitMix64(hash ^ __builtin_bit_cast(Unsigned, b));
         // A whole number below 2^52 stands in the low bits of 2^52 plus it.
         constexpr uint64_t kWholeNumberBits = 0x4330000000000000;
         const D whole = __builtin_bit_cast(D, (hash >> kUndrawnBits) | kWholeNumberBits) - D(0x1p52);
         return (whole + D(0.5)) * D(0x1p-24);
     }
     static constexpr int kUndrawnBits = 64 - 24;
-    template <class Unsigned>
-    static Unsigned mixed(Unsigned z) {
-        z = z + 0x9e3779b97f4a7c15u;
-        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-        z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-        return z ^ (z >> 31);
-    }
 
     [[gnu::always_inline]] static D throughFloat(D x) {
         const EmulatedFormat& f = emulatedFormat;

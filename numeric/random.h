@@ -6,16 +6,25 @@
 
 namespace etalon {
 
-// splitmix64 [Steele2014]: the same sequence on every machine, unlike the standard distributions.
+// What splitmix64 [Steele2014] yields of a state, which then grows by kSplitMixStep. Unsigned: uint64_t, or lanes of it.
+inline constexpr uint64_t kSplitMixStep = 0x9e3779b97f4a7c15u;
+template <class Unsigned>
+Unsigned splitMix64(Unsigned state) {
+    Unsigned z = state + kSplitMixStep;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return z ^ (z >> 31);
+}
+
+// The same sequence on every machine, unlike the standard distributions.
 class Random {
   public:
     explicit Random(uint64_t seed) : state_(seed) {}
 
     uint64_t next() {
-        uint64_t z = state_ += 0x9e3779b97f4a7c15u;
-        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-        z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-        return z ^ (z >> 31);
+        const uint64_t z = splitMix64(state_);
+        state_ += kSplitMixStep;
+        return z;
     }
     // In [low, high).
     double uniform(double low, double high) {

@@ -108,6 +108,17 @@ class Render(CliCase):
         self.expect_error("has no channel", "render", "scene.toml", "-o", "b.exr", "--outputs", "shadow_map")
         self.assertNotIn("b.exr", self.images())
 
+    def test_with_one_thread_there_is_one(self):
+        """Looked at while it runs and writes: a look may come too late, but sees no thread that is not there."""
+        scene, seen = self.scene(width=900, height=900), []
+        with subprocess.Popen([self.program, "render", scene, "-o", "a.exr", "--threads", "1"], cwd=self.folder,
+                              stdout=subprocess.DEVNULL) as process:
+            while process.poll() is None:
+                seen.append(len(os.listdir(f"/proc/{process.pid}/task")))
+                time.sleep(0.001)
+        self.assertEqual(process.returncode, 0)
+        self.assertEqual(max(seen), 1)
+
     def test_progress_shows_on_a_terminal_after_a_second(self):
         def shown(width):
             master, terminal = pty.openpty()

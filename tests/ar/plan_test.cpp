@@ -278,6 +278,21 @@ TEST_CASE("APngNeedsTheBeautyWhateverTheOutputsAre") {
     CHECK_FALSE(passOf(makePlan(fullScene(), asking({"depth"})), "tone mapping").runs);
 }
 
+// Whether it is an output or the PNG shows it: its parts, and of them those that are not black.
+TEST_CASE("TheBeautyNeedsEachOfItsParts") {
+    using Names = std::vector<std::string>;
+    for (const RenderOptions& options : {asking({"beauty"}), asking({"depth"}, true)}) {
+        Scene scene = fullScene();
+        const Plan plan = makePlan(scene, options);
+        CHECK(namesOfNeeds(plan, passOf(plan, "beauty")) ==
+              Names{"ambient", "diffuse", "specular", "mirror", "background"});
+        scene.ambient = glm::dvec3(0);
+        scene.meshes.resize(2);
+        const Plan less = makePlan(scene, options);
+        CHECK(namesOfNeeds(less, passOf(less, "beauty")) == Names{"diffuse", "specular", "background"});
+    }
+}
+
 TEST_CASE("BeforeVisibilityThePlanSaysWhatDependsOnIt") {
     const Scene scene = fullScene();
     const Plan first = makePlan(scene, {});

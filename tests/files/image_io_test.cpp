@@ -6,14 +6,17 @@
 #include <unistd.h>
 
 #include <bit>
+#include <chrono>
 #include <csignal>
 #include <cstring>
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <thread>
 
 #include "files/atomic_file.h"
 #include "golden/compare.h"
+#include "numeric/parallel.h"
 #include "tests/support/scratch_folder.h"
 
 namespace etalon {
@@ -106,6 +109,34 @@ TEST_CASE("ExrOfIdentifiersAloneKeepsThem") {
     const Frame frame{2, 1, {{"id", ids}}, {}};
     writeExr(frame, folder / "a.exr");
     CHECK(compareFrames(frame, readFrame(folder / "a.exr")).identical());
+}
+
+// The helpers stay in the library's pool, where they can be counted; those that leave it take a moment to be gone.
+TEST_CASE("TheExrEncoderTakesNoMoreThreadsThanItIsGiven") {
+    const auto threadsNow = [] {
+        const std::filesystem::directory_iterator tasks("/proc/self/task");
+        return static_cast<int>(std::distance(begin(tasks), end(tasks)));
+    };
+    const auto becomes = [&](int count) {
+        for (int i = 0; i < 1000 && threadsNow() != count; i++)
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        return threadsNow() == count;
+    };
+    const Frame frame = sampleFrame();
+    const int blocks = (frame.height + 15) / 16;
+    const std::vector<std::byte> bytes = encodeExr(frame, 1);
+    // A pool that was there before is gone.
+    int alone = threadsNow();
+    for (int i = 0; i < 20; i++) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        alone = std::min(alone, threadsNow());
+    }
+    for (const int threads : {2, 7, 3, 1, 5, 1000, 0}) {
+        CAPTURE(threads);
+        CHECK(encodeExr(frame, threads) == bytes);
+        const int helpers = std::min(threads == 0 ? hardwareThreads() : threads, blocks);
+        CHECK(becomes(alone + (helpers > 1 ? helpers : 0)));
+    }
 }
 
 TEST_CASE("SameFrameGivesTheSameFile") { CHECK(encodeExr(sampleFrame()) == encodeExr(sampleFrame())); }

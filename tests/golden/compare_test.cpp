@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <bit>
+#include <cmath>
 #include <limits>
 
 namespace etalon {
@@ -178,6 +179,24 @@ TEST_CASE("FiguresAreThoseOfTheDefinition") {
     CHECK(result.rmse * result.rmse == doctest::Approx(5.0 / 4));
     CHECK(result.bias == 0.25);
     CHECK(result.maxUlp == uint64_t{1} << 23);
+}
+
+// What is infinite or NaN in a frame is counted, and is no part of a mean: not above the line, not below.
+TEST_CASE("MeansAreThoseOfTheFiniteSamples") {
+    const ChannelComparison finite = compareValues({1, 2, 4, 0}, {1, 4, 3, 0});
+    const ChannelComparison mixed = compareValues({1, kNan, 2, kInfinity, 4, kInfinity, 0, -kInfinity, kNan},
+                                                  {1, kNan, 4, kInfinity, 3, 1, 0, kInfinity, 1});
+    CHECK(mixed.samples == 9);
+    CHECK(mixed.finite == 4);
+    CHECK(mixed.nanMismatches == 1);
+    CHECK(mixed.infinityMismatches == 2);
+    for (const ChannelComparison& result : {finite, mixed}) {
+        CHECK(result.meanUlp == ((1 << 23) + (1 << 22)) / 4.0);
+        CHECK(result.meanAbsolute == (2.0 + 1.0) / 4);
+        CHECK(result.meanRelative == (0.5 + 0.25) / 4);
+        CHECK(result.rmse == std::sqrt((4.0 + 1.0) / 4));
+        CHECK(result.bias == (2.0 - 1.0) / 4);
+    }
 }
 
 TEST_CASE("LargestDistancesDoNotOverflow") {

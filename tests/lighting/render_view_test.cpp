@@ -10,54 +10,14 @@
 #include "numeric/door.h"
 #include "numeric/fp_environment.h"
 #include "tests/support/box_scene.h"
+#include "tests/support/shaded_view.h"
 
 using namespace etalon;
+using test::kAllProfiles, test::Lights, test::render, test::requestOf, test::squareView;
 
 namespace {
 
 constexpr double kPi = 3.141592653589793;
-
-// A camera at the origin that looks along -Z with a field of view of 90 degrees.
-View squareView(int size) {
-    PinholeCamera camera;
-    camera.width = camera.height = size;
-    camera.fx = camera.fy = camera.cx = camera.cy = size / 2.0;
-    return cameraView(camera);
-}
-
-enum class Lights { perPixel, perVertex };
-
-struct Rendered {
-    ShadedImages images;
-    ShadeStatistics statistics;
-};
-
-Rendered render(const SurfaceScene& scene, const View& view, const ShadeRequest& request,
-                const char* profileName = "f32", int samples = 1, const RasterOptions& options = {},
-                Lights lights = Lights::perPixel) {
-    const Profile& profile = *findProfile(profileName);
-    const auto placed = placeMeshes(scene, profile.vertex, options.threads);
-    const VisibleScene visible = findVisible(scene, placed, view, profile, samples, options);
-    ShadeJob job = shadeJobOf(visible, scene, placed, view, profile, options);
-    job.request = request;
-    std::vector<VertexRadiance> radiance;
-    if (lights == Lights::perVertex) {
-        radiance = lightVerticesOf(job);
-        job.vertexRadiance = &radiance;
-    }
-    Rendered result;
-    result.images = shade(job, &result.statistics);
-    return result;
-}
-
-ShadeRequest requestOf(std::initializer_list<ShadeOutput> outputs) {
-    ShadeRequest request;
-    for (ShadeOutput output : outputs) request[output] = true;
-    return request;
-}
-
-const char* const kAllProfiles[] = {"f32",       "f64",       "truth",     "d3d11", "vulkan-min",
-                                    "nv40-fp32", "nv40-fp16", "r300-fp24", "fp16",  "bf16"};
 
 }  // namespace
 
@@ -165,11 +125,7 @@ TEST_CASE("WhitePlateFacingIrradiancePiReflectsOne") {
     test::addObject(scene, test::rectangle({0, 0, -2}, {3, 0, 0}, {0, 3, 0}), test::lambertian(1));
     scene.lights.push_back({{0, 0, 1}, glm::dvec3(kPi)});
     for (const char* profile : kAllProfiles) {
-        const double unit = std::string(profile) == "bf16"        ? 0x1p-7
-                            : std::string(profile) == "fp16"      ? 0x1p-10
-                            : std::string(profile) == "nv40-fp16" ? 0x1p-10
-                            : std::string(profile) == "r300-fp24" ? 0x1p-16
-                                                                  : 0x1p-23;
+        const double unit = test::spacingOf(profile);
         const auto result =
             render(scene, squareView(8), requestOf({ShadeOutput::beauty, ShadeOutput::diffuse}), profile);
         for (const float value : result.images[ShadeOutput::beauty].values())

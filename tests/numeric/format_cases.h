@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "numeric/format.h"
+#include "numeric/random.h"
 
 #if defined(__has_feature)
 #if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
@@ -31,25 +32,6 @@ inline constexpr size_t kCases = size_t{1} << 22;
 inline constexpr size_t kCases = size_t{1} << 17;
 #endif
 
-// SplitMix64 (Steele, Lea and Flood 2014): a stream that is the same on every machine.
-class Random {
-  public:
-    explicit Random(uint64_t seed) : state_(seed) {}
-    uint64_t bits() {
-        uint64_t z = (state_ += 0x9e3779b97f4a7c15u);
-        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-        z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-        return z ^ (z >> 31);
-    }
-    // A whole number in [lo, hi].
-    int within(int lo, int hi) {
-        return lo + static_cast<int>(bits() % static_cast<uint64_t>(static_cast<int64_t>(hi) - lo + 1));
-    }
-
-  private:
-    uint64_t state_;
-};
-
 // Makes cases for one format. All values are built exactly from integers, never by the code under test.
 class FormatCases {
   public:
@@ -60,49 +42,49 @@ class FormatCases {
     // special values.
     std::pair<double, double> pair() {
         const int p = f_.significandBits, lo = f_.minExponent, hi = f_.maxExponent;
-        const int ea = random_.within(lo - p, hi);
-        switch (random_.within(0, 9)) {
+        const int ea = random_.integer(lo - p, hi);
+        switch (random_.integer(0, 9)) {
             case 0:
-                return {number(ea), number(random_.within(lo - p, hi))};
+                return {number(ea), number(random_.integer(lo - p, hi))};
             case 1:
-                return {number(ea), number(ea + random_.within(-p - 2, p + 2))};
+                return {number(ea), number(ea + random_.integer(-p - 2, p + 2))};
             case 2:
-                return {number(lo + random_.within(-p, 2)), number(lo + random_.within(-p, 2))};
+                return {number(lo + random_.integer(-p, 2)), number(lo + random_.integer(-p, 2))};
             case 3:
-                return {number(hi - random_.within(0, 2)), number(hi - random_.within(0, p + 2))};
+                return {number(hi - random_.integer(0, 2)), number(hi - random_.integer(0, p + 2))};
             case 4: {  // the sum is a tie, or next to one
                 const double a = number(ea);
-                return {a, neighbour(sign() * powerOfTwo(clamp(ea - p)), random_.within(-1, 1))};
+                return {a, neighbour(sign() * powerOfTwo(clamp(ea - p)), random_.integer(-1, 1))};
             }
             case 5: {  // the difference cancels but for the last bits
                 const double a = number(ea);
-                return {a, sign() * neighbour(a, random_.within(-3, 3))};
+                return {a, sign() * neighbour(a, random_.integer(-3, 3))};
             }
             case 6:
-                return {number(ea), number(lo - ea + random_.within(-p - 1, 2))};  // tiny products
+                return {number(ea), number(lo - ea + random_.integer(-p - 1, 2))};  // tiny products
             case 7:
-                return {number(ea), number(random_.within(0, 1) ? hi - ea + random_.within(-2, 1)
-                                                                : ea - lo + random_.within(-2, p + 1))};
+                return {number(ea), number(random_.integer(0, 1) ? hi - ea + random_.integer(-2, 1)
+                                                                 : ea - lo + random_.integer(-2, p + 1))};
             case 8: {  // short significands: products and quotients are exact or ties; squares for the root
-                const int bits = random_.within(1, (p + 2) / 2);
-                const double root = static_cast<double>(random_.bits() >> (64 - bits) | 1);
-                const int even = 2 * random_.within(lo / 2, std::max(lo / 2, hi / 2 - p));
-                const double b = representable(root * powerOfTwo(random_.within(-p, 2)));
-                return {neighbour(representable(root * root * powerOfTwo(even)), random_.within(-1, 1)), b};
+                const int bits = random_.integer(1, (p + 2) / 2);
+                const double root = static_cast<double>(random_.next() >> (64 - bits) | 1);
+                const int even = 2 * random_.integer(lo / 2, std::max(lo / 2, hi / 2 - p));
+                const double b = representable(root * powerOfTwo(random_.integer(-p, 2)));
+                return {neighbour(representable(root * root * powerOfTwo(even)), random_.integer(-1, 1)), b};
             }
             default:
-                return {special(), random_.within(0, 1) ? special() : number(ea)};
+                return {special(), random_.integer(0, 1) ? special() : number(ea)};
         }
     }
 
     // A double that need not be a number of the format: on, next to, or halfway between two of them, or any.
     double anyDouble() {
-        if (random_.within(0, 15) == 0) return std::bit_cast<double>(random_.bits());
-        const int e = random_.within(f_.minExponent - f_.significandBits - 2, f_.maxExponent + 1);
+        if (random_.integer(0, 15) == 0) return std::bit_cast<double>(random_.next());
+        const int e = random_.integer(f_.minExponent - f_.significandBits - 2, f_.maxExponent + 1);
         const double a = number(e);
         const double quantum = powerOfTwo(quantumExponent(e));
-        const double halves = a + quantum * 0.5 * random_.within(-2, 2);
-        switch (random_.within(0, 3)) {
+        const double halves = a + quantum * 0.5 * random_.integer(-2, 2);
+        switch (random_.integer(0, 3)) {
             case 0:
                 return halves;
             case 1:
@@ -110,12 +92,12 @@ class FormatCases {
             case 2:
                 return std::nextafter(halves, -std::numeric_limits<double>::infinity());
             default:
-                return a + quantum * (static_cast<double>(random_.bits() >> 11) * powerOfTwo(-53));
+                return a + quantum * (static_cast<double>(random_.next() >> 11) * powerOfTwo(-53));
         }
     }
 
   private:
-    double sign() { return random_.within(0, 1) ? 1.0 : -1.0; }
+    double sign() { return random_.integer(0, 1) ? 1.0 : -1.0; }
     int clamp(int e) const {
         const int lowest =
             f_.subnormals == Subnormals::keep ? f_.minExponent - f_.significandBits + 1 : f_.minExponent;
@@ -129,7 +111,7 @@ class FormatCases {
         e = clamp(e);
         const int quantum = quantumExponent(e);
         const int fractionBits = e - quantum;
-        const uint64_t fraction = fractionBits == 0 ? 0 : random_.bits() >> (64 - fractionBits);
+        const uint64_t fraction = fractionBits == 0 ? 0 : random_.next() >> (64 - fractionBits);
         return sign() * (static_cast<double>((uint64_t{1} << fractionBits) | fraction) * powerOfTwo(quantum));
     }
     // x, if it is a number of the format, else a number near it: digits that do not fit are cut off.
@@ -158,7 +140,7 @@ class FormatCases {
                                  std::numeric_limits<double>::infinity(),
                                  std::numeric_limits<double>::quiet_NaN()};
         const int count = f_.overflow == Overflow::infinity ? 10 : 8;
-        return sign() * values[random_.within(0, count - 1)];
+        return sign() * values[random_.integer(0, count - 1)];
     }
 
     Format f_;

@@ -42,7 +42,8 @@ double largestUnitVectorError() {
     for (int i = 0; i < 2000; i++) {
         double c[3];
         for (double& x : c)
-            x = R((random.within(0, 1) ? 1.0 : -1.0) * (0.25 + 3.75 * 0x1p-30 * random.within(0, 1 << 30))).v;
+            x = R((random.integer(0, 1) ? 1.0 : -1.0) * (0.25 + 3.75 * 0x1p-30 * random.integer(0, 1 << 30)))
+                    .v;
         const auto u = VectorKernels<R>{}.unit3(vectorOf<R>(c[0], c[1], c[2]));
         const auto t = VectorKernels<Truth>{}.unit3(vectorOf<Truth>(c[0], c[1], c[2]));
         largest = std::fmax(largest, std::abs((Truth(u.x.v) / t.x - Truth(1.0)).toDouble()));

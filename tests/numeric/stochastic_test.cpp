@@ -24,7 +24,7 @@ using Op = EmulatedOperation;
 
 constexpr int kDrawnBits = 24;
 
-// The definition in numeric/emulated_format.h, once more.
+// The definition in numeric/emulated_format.h, once more: an oracle, independent of numeric/random.h.
 uint64_t step(uint64_t state) {
     state += 0x9e3779b97f4a7c15u;
     uint64_t z = state;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bitcheck/inputs.h"
 #include "tests/support/random_numbers.h"
 #include "tests/support/shadow_meshes.h"
 
@@ -159,7 +160,7 @@ TEST_CASE("SpiralDirectionsAreEvenOverTheSphere") {
 }
 
 TEST_CASE("DirectionalOcclusionIsTheOraclesForTheSameDirections") {
-    const Placed scene({torusKnot(96, 12)});
+    const Placed scene({torusKnotMesh(96, 12)});
     const std::vector<OcclusionPoint> points = occlusionPointsOf(scene.placed[0]);
     DirectionalOptions options;
     options.directions = 128;
@@ -198,7 +199,7 @@ TEST_CASE("DirectionalOcclusionIsTheOraclesForTheSameDirections") {
 }
 
 TEST_CASE("ThreadsChangeNoBitOfOcclusion") {
-    const Placed scene({torusKnot(48, 8)});
+    const Placed scene({torusKnotMesh(48, 8)});
     const std::vector<OcclusionPoint> points = occlusionPointsOf(scene.placed[0]);
     HemicubeOptions one, many;
     one.size = many.size = 16;

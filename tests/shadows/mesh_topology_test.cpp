@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "bitcheck/inputs.h"
 #include "shadows/shadow_volume.h"
 #include "tests/support/shadow_meshes.h"
 
@@ -26,7 +27,7 @@ TEST_CASE("ClosedMeshesHaveTwoTrianglesAtEachEdge") {
     const MeshTopology box = topologyOf(solidBox({1, 2, 3}, {0.5f, 1, 2}));
     CHECK(box.edges.size() == 18);
     for (const SurfaceMesh& mesh :
-         {solidBox({0, 0, 0}, {1, 1, 1}), sphere(12, 7, {0, 0, 0}, 1), torusKnot(24, 6)}) {
+         {solidBox({0, 0, 0}, {1, 1, 1}), sphere(12, 7, {0, 0, 0}, 1), torusKnotMesh(24, 6)}) {
         const MeshTopology topology = topologyOf(mesh);
         CHECK(topology.isClosed == std::vector<uint8_t>{1});
         CHECK(topology.trianglesOf(0).size() * 3 == mesh.indices.size());

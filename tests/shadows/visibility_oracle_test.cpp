@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "bitcheck/inputs.h"
 #include "numeric/check.h"
 #include "tests/support/random_numbers.h"
 #include "tests/support/shadow_meshes.h"
@@ -102,7 +103,7 @@ TEST_CASE("ClosedMeshesHaveNoGaps") {
 }
 
 TEST_CASE("TheTreeAnswersAsAllTrianglesDo") {
-    std::vector<WorldTriangle> triangles = trianglesOf(torusKnot(48, 8));
+    std::vector<WorldTriangle> triangles = trianglesOf(torusKnotMesh(48, 8));
     for (const WorldTriangle& t : square()) triangles.push_back(t);
     const VisibilityOracle tree(triangles), all(triangles, VisibilityOracle::Search::allTriangles);
     RandomNumbers random(4);

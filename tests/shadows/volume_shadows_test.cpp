@@ -7,6 +7,7 @@
 #include <limits>
 #include <string>
 
+#include "bitcheck/inputs.h"
 #include "numeric/check.h"
 #include "shadows/exact_side.h"
 #include "tests/support/random_numbers.h"
@@ -140,7 +141,8 @@ void checkAgainstOracle(const Comparison& c, int shadowed) {
 }  // namespace
 
 TEST_CASE("ShadowsOfClosedMeshesAreTheOracles") {
-    SurfaceScene scene = sceneWith({torusKnot(96, 16), solidBox({1.5, 0.5, -1.5}, {0.4f, 0.5f, 0.3f})});
+    SurfaceScene scene =
+        sceneWith({torusKnotMesh(96, 16, {.tube_m = 0.2}), solidBox({1.5, 0.5, -1.5}, {0.4f, 0.5f, 0.3f})});
     scene.instances[1].toWorld[3][1] = 1.2;
     scene.lights = {pointLight({2, 5, 1}), sun({1, 2, 1})};
     const Comparison c = compareWithOracle(scene, kView);
@@ -263,7 +265,7 @@ TEST_CASE("DepthRangeOfAMillionFailsFarAwayOnly") {
 }
 
 TEST_CASE("PointLightFarAwayIsASun") {
-    SurfaceScene scene = sceneWith({torusKnot(96, 16)});
+    SurfaceScene scene = sceneWith({torusKnotMesh(96, 16, {.tube_m = 0.2})});
     scene.instances[1].toWorld[3][1] = 1.2;
     const glm::dvec3 towards = unit({1, 2, 1});
     scene.lights = {pointLight(1e8 * towards)};
@@ -293,7 +295,8 @@ TEST_CASE("UnoccludedPlaneIsLitToTheLastPixel") {
 }
 
 TEST_CASE("MirroredAndInsideOutMeshesCastAsOthersDo") {
-    SurfaceScene scene = sceneWith({torusKnot(96, 16), solidBox({1.5, 0.5, -1.5}, {0.4f, 0.5f, 0.3f})});
+    SurfaceScene scene =
+        sceneWith({torusKnotMesh(96, 16, {.tube_m = 0.2}), solidBox({1.5, 0.5, -1.5}, {0.4f, 0.5f, 0.3f})});
     scene.instances[1].toWorld[3][1] = 1.2;
     scene.instances[1].toWorld[0][0] = -1;
     std::vector<uint32_t>& indices = scene.meshes[2].indices;
@@ -303,7 +306,8 @@ TEST_CASE("MirroredAndInsideOutMeshesCastAsOthersDo") {
 }
 
 TEST_CASE("CubeFacesShowTheOraclesShadows") {
-    SurfaceScene scene = sceneWith({torusKnot(48, 8), rectangle({0.5f, 3, 0}, {1, 0, 0.2f}, {0, 0, -1})});
+    SurfaceScene scene =
+        sceneWith({torusKnotMesh(48, 8, {.tube_m = 0.2}), rectangle({0.5f, 3, 0}, {1, 0, 0.2f}, {0, 0, -1})});
     scene.instances[1].toWorld[3][1] = 1.2;
     scene.lights = {pointLight({0.5, 5, 0.3}), sun({1, 2, 1})};
     int shadowed = 0;
@@ -355,7 +359,7 @@ TEST_CASE("ScenesWithoutCastersAndLightsWithoutANumber") {
 }
 
 TEST_CASE("SamplesOfAPixelCountForTheirInstance") {
-    SurfaceScene scene = sceneWith({torusKnot(48, 8)});
+    SurfaceScene scene = sceneWith({torusKnotMesh(48, 8, {.tube_m = 0.2})});
     scene.lights = {pointLight({2, 5, 1})};
     const auto placed = placeMeshes(scene, RasterReal::fp32, 1);
     VolumeShadowOptions options;
@@ -394,7 +398,7 @@ TEST_CASE("SamplesOfAPixelCountForTheirInstance") {
 }
 
 TEST_CASE("ThreadsAndTilesChangeNoBitOfVolumeShadows") {
-    SurfaceScene scene = sceneWith({torusKnot(192, 16)});
+    SurfaceScene scene = sceneWith({torusKnotMesh(192, 16, {.tube_m = 0.2})});
     scene.instances[1].toWorld[3][1] = 1.2;
     scene.lights = {pointLight({2, 5, 1}), sun({1, 2, 1})};
     const auto placed = placeMeshes(scene, RasterReal::fp32, 1);

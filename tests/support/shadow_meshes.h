@@ -1,4 +1,4 @@
-// Meshes that cast shadows in tests.
+// Meshes that cast shadows in tests; the knot is torusKnotMesh() of bitcheck/inputs.h.
 #pragma once
 
 #include <cmath>
@@ -8,19 +8,6 @@
 #include "tests/support/box_scene.h"
 
 namespace etalon::test {
-
-// Two triangles for each cell of a grid of columns x rows vertices that is closed in both directions.
-inline void addClosedGrid(SurfaceMesh& mesh, int columns, int rows) {
-    for (int j = 0; j < rows; j++)
-        for (int i = 0; i < columns; i++) {
-            const auto index = [&](int di, int dj) {
-                return static_cast<uint32_t>((j + dj) % rows * columns + (i + di) % columns);
-            };
-            for (const uint32_t corner :
-                 {index(0, 0), index(0, 1), index(1, 1), index(0, 0), index(1, 1), index(1, 0)})
-                mesh.indices.push_back(corner);
-        }
-}
 
 // A closed sphere with `columns` meridians and `rows` bands, seen counter-clockwise from outside.
 inline SurfaceMesh sphere(int columns, int rows, glm::vec3 centre, float radius) {
@@ -53,35 +40,6 @@ inline SurfaceMesh sphere(int columns, int rows, glm::vec3 centre, float radius)
                 for (const uint32_t corner : {index(i + 1, j), index(i, j + 1), index(i + 1, j + 1)})
                     mesh.indices.push_back(corner);
         }
-    return mesh;
-}
-
-// A closed (2, 3) torus knot of radius 1 around the origin, of 2 x along x around triangles.
-inline SurfaceMesh torusKnot(int along, int around) {
-    SurfaceMesh mesh;
-    const double turn = 2 * 3.14159265358979323846;
-    const auto centre = [&](double t) {
-        const double r = 1 + 0.4 * std::cos(3 * turn * t);
-        return glm::dvec3(r * std::cos(2 * turn * t), 0.4 * std::sin(3 * turn * t),
-                          r * std::sin(2 * turn * t));
-    };
-    for (int j = 0; j < along; j++) {
-        const glm::dvec3 here = centre(static_cast<double>(j) / along),
-                         next = centre((j + 0.01) / along) - here;
-        const double length = std::sqrt(next.x * next.x + next.y * next.y + next.z * next.z);
-        const glm::dvec3 t = next / length;
-        // Two directions across.
-        glm::dvec3 u(t.z, 0, -t.x);
-        u = u / std::sqrt(u.x * u.x + u.z * u.z);
-        const glm::dvec3 v(t.y * u.z - t.z * u.y, t.z * u.x - t.x * u.z, t.x * u.y - t.y * u.x);
-        for (int i = 0; i < around; i++) {
-            const double a = turn * i / around;
-            const glm::dvec3 n = std::cos(a) * u + std::sin(a) * v;
-            mesh.normals.emplace_back(n);
-            mesh.positions.emplace_back(here + 0.2 * n);
-        }
-    }
-    addClosedGrid(mesh, around, along);
     return mesh;
 }
 
