@@ -8,7 +8,7 @@
 #include <optional>
 #include <span>
 
-#include "app/machine_options.h"
+#include "app/options.h"
 #include "app/output.h"
 #include "app/verbs.h"
 #include "bitcheck/dump.h"

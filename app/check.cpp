@@ -1,7 +1,7 @@
 #include <memory>
 
 #include "app/golden_support.h"
-#include "app/machine_options.h"
+#include "app/options.h"
 #include "app/output.h"
 #include "app/report.h"
 #include "app/verbs.h"

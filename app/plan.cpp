@@ -3,8 +3,8 @@
 #include <memory>
 
 #include "app/command_line.h"
+#include "app/options.h"
 #include "app/output.h"
-#include "app/scene_options.h"
 #include "app/verbs.h"
 #include "scene/scene_loader.h"
 

@@ -1,8 +1,7 @@
 #include <limits>
 #include <memory>
 
-#include "app/machine_options.h"
-#include "app/probe_options.h"
+#include "app/options.h"
 #include "app/verbs.h"
 #include "files/atomic_file.h"
 #include "files/image_io.h"

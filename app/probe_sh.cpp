@@ -1,9 +1,8 @@
 #include <cmath>
 #include <memory>
 
-#include "app/machine_options.h"
+#include "app/options.h"
 #include "app/output.h"
-#include "app/probe_options.h"
 #include "app/verbs.h"
 #include "files/json.h"
 #include "numeric/text.h"

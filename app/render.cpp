@@ -4,8 +4,8 @@
 #include <memory>
 
 #include "app/command_line.h"
+#include "app/options.h"
 #include "app/output.h"
-#include "app/scene_options.h"
 #include "app/verbs.h"
 #include "files/atomic_file.h"
 #include "files/image_io.h"

@@ -17,8 +17,8 @@
 #include "lighting/names.h"
 #include "numeric/names.h"
 #include "raster/profile.h"
-#include "shadows/planar_lights.h"
 #include "shadows/names.h"
+#include "shadows/planar_lights.h"
 
 namespace etalon {
 
