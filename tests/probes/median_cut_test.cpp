@@ -329,6 +329,27 @@ TEST_CASE("TablesOfAnyArithmeticCanBeCut") {
     CHECK(regions(Rounded<kBf16>(0.0)) != wide);
 }
 
+TEST_CASE("MedianCutRunsInAnyArithmetic") {
+    const Probe probe = randomProbe(64, 32, 6);
+    const MedianCut cut{5};
+    const auto wide = medianCutLights(probe, cut, 1).lights;
+    const auto difference = [&](const Arithmetic& arithmetic) {
+        const auto lights = medianCutLights(probe, cut, arithmetic, 2).lights;
+        REQUIRE(lights.size() == wide.size());
+        double largest = 0.0;
+        for (size_t i = 0; i < lights.size(); i++) {
+            REQUIRE(lights[i].direction == lights[i].direction);
+            largest = std::max(largest, std::abs(energyOf(lights[i].energy) / energyOf(wide[i].energy) - 1));
+        }
+        return largest;
+    };
+    CHECK(difference(Arithmetic::fp64) == 0.0);
+    // The energies are sums of up to 64 x 32 / 32 texels: no digits are lost to the table where the cuts agree.
+    CHECK(difference(Arithmetic::truth) <= 1e-14);
+    CHECK(difference(Arithmetic::fp16) > 1e-4);
+    CHECK(difference(Arithmetic::fp16) < 1.0);
+}
+
 TEST_CASE("LightsDependOnNoThreads") {
     const Probe probe = randomProbe(93, 70, 4);
     const auto one = medianCutLights(probe, {7}, 1), three = medianCutLights(probe, {7}, 3);
