@@ -35,6 +35,7 @@ constexpr Note kNotes[] = {
     {"d3d11", "subpixel_bits", "8 [D3D11.3]", ""},
     {"d3d11", "texture_fraction_bits", "at least 8 [D3D11.3, sec. 7.18]", ""},
     {"d3d11", "texture_filter", "", "float textures are filtered"},
+    {"d3d11", "environment", "", "made beforehand, by a host in double"},
 
     {"vulkan-min", "fragment", "32 bits [VulkanSpec]",
      "nearest-even, subnormals kept, exact quotients and powers, where more error is allowed"},
@@ -45,6 +46,7 @@ constexpr Note kNotes[] = {
     {"vulkan-min", "texture_fraction_bits",
      "the least subTexelPrecisionBits [VulkanSpec, \"Required Limits\"]", ""},
     {"vulkan-min", "texture_filter", "", "float textures are filtered"},
+    {"vulkan-min", "environment", "", "made beforehand, by a host in double"},
 
     {"nv40-fp32", "fragment.significand_bits", "23 fraction bits [Kilgariff2005]", ""},
     {"nv40-fp32", "fragment.min_exponent", "8 exponent bits [Kilgariff2005]", ""},
@@ -60,6 +62,7 @@ constexpr Note kNotes[] = {
     {"nv40-fp32", "subpixel_bits", "", "8"},
     {"nv40-fp32", "texture_fraction_bits", "", "8"},
     {"nv40-fp32", "texture_filter", "fp16 textures are filtered, not fp32 [Kilgariff2005]", ""},
+    {"nv40-fp32", "environment", "", "made beforehand, by a host in double"},
 
     {"nv40-fp16", "fragment.significand_bits", "10 fraction bits [Kilgariff2005]", ""},
     {"nv40-fp16", "fragment.min_exponent", "5 exponent bits [Kilgariff2005]", ""},
@@ -75,6 +78,7 @@ constexpr Note kNotes[] = {
     {"nv40-fp16", "subpixel_bits", "", "8"},
     {"nv40-fp16", "texture_fraction_bits", "", "8"},
     {"nv40-fp16", "texture_filter", "fp16 textures are filtered [Kilgariff2005]", ""},
+    {"nv40-fp16", "environment", "", "made beforehand, by a host in double"},
 
     {"r300-fp24", "fragment.significand_bits", "16 fraction bits, by a single source", ""},
     {"r300-fp24", "fragment.min_exponent", "7 exponent bits, by a single source",
@@ -93,6 +97,7 @@ constexpr Note kNotes[] = {
     {"r300-fp24", "subpixel_bits", "", "8"},
     {"r300-fp24", "texture_fraction_bits", "", "8"},
     {"r300-fp24", "texture_filter", "float textures are not filtered, by a single source", ""},
+    {"r300-fp24", "environment", "", "made beforehand, by a host in double"},
 };
 
 // The longest key that fits; null if none does.
@@ -115,7 +120,7 @@ std::string nameOf(std::span<const std::string_view> names, E value) {
 
 std::vector<ProfileField> profileFields(const Profile& profile) {
     std::vector<ProfileField> fields;
-    const auto add = [&](const char* key, std::string value, bool isNumber = false) {
+    const auto add = [&](const std::string& key, std::string value, bool isNumber = false) {
         ProfileField field{key, std::move(value), isNumber, "", ""};
         if (const Note* note = noteOf(profile.name, key)) {
             field.documented = note->documented;
@@ -123,21 +128,23 @@ std::vector<ProfileField> profileFields(const Profile& profile) {
         }
         fields.push_back(std::move(field));
     };
-    const auto addNumber = [&](const char* key, auto value) { add(key, formatText("{}", value), true); };
-    if (!profile.fragment.hasFormat()) {
-        add("fragment", arithmeticName(profile.fragment));
-    } else {
-        const Format& f = profile.fragment.format;
-        addNumber("fragment.significand_bits", f.significandBits);
-        addNumber("fragment.min_exponent", f.minExponent);
-        addNumber("fragment.max_exponent", f.maxExponent);
-        add("fragment.rounding", nameOf(roundingNames(), f.rounding));
-        add("fragment.subnormals", nameOf(subnormalNames(), f.subnormals));
-        add("fragment.overflow", nameOf(overflowNames(), f.overflow));
-        add("fragment.division", nameOf(divisionNames(), f.division));
-        add("fragment.power", nameOf(powerNames(), f.power));
-        if (f.rounding == Rounding::stochastic) addNumber("fragment.seed", f.seed);
-    }
+    const auto addNumber = [&](const std::string& key, auto value) {
+        add(key, formatText("{}", value), true);
+    };
+    const auto addArithmetic = [&](const std::string& key, const Arithmetic& arithmetic) {
+        if (!arithmetic.hasFormat()) return add(key, arithmeticName(arithmetic));
+        const Format& f = arithmetic.format;
+        addNumber(key + ".significand_bits", f.significandBits);
+        addNumber(key + ".min_exponent", f.minExponent);
+        addNumber(key + ".max_exponent", f.maxExponent);
+        add(key + ".rounding", nameOf(roundingNames(), f.rounding));
+        add(key + ".subnormals", nameOf(subnormalNames(), f.subnormals));
+        add(key + ".overflow", nameOf(overflowNames(), f.overflow));
+        add(key + ".division", nameOf(divisionNames(), f.division));
+        add(key + ".power", nameOf(powerNames(), f.power));
+        if (f.rounding == Rounding::stochastic) addNumber(key + ".seed", f.seed);
+    };
+    addArithmetic("fragment", profile.fragment);
     add("vertex", nameOf(rasterRealNames(), profile.vertex));
     add("depth", nameOf(depthFormatNames(), profile.depth));
     add("depth_rounding", nameOf(depthRoundingNames(), profile.depthRounding));
@@ -147,6 +154,7 @@ std::vector<ProfileField> profileFields(const Profile& profile) {
     else
         addNumber("texture_fraction_bits", profile.textureFractionBits);
     add("texture_filter", nameOf(filterNames(), profile.textureFilter));
+    addArithmetic("environment", profile.environment);
     return fields;
 }
 
