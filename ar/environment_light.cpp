@@ -8,7 +8,6 @@
 #include "probes/harmonics_lobes.h"
 #include "probes/irradiance.h"
 #include "probes/median_cut.h"
-#include "probes/texel_grid.h"
 
 namespace etalon {
 namespace {
@@ -42,25 +41,6 @@ CubeMap<float> facesOf(Probe probe, double factor) {
     return cube;
 }
 
-// Each texel with a solid angle as a light, in world directions.
-void setTexels(const Probe& probe, EnvironmentLight& light) {
-    const TexelGrid grid(probe.shape);
-    const Image<float>& image = probe.radiance[0];
-    for (int y = 0; y < image.height(); y++) {
-        for (int x = 0; x < image.width(); x++) {
-            const glm::dvec3 d = grid.direction(0, x, y);
-            const double weight_sr = grid.solidAngle_sr(0, x, y);
-            const glm::dmat3& m = probe.rotation;
-            light.directions.emplace_back(m[0].x * d.x + (m[1].x * d.y + m[2].x * d.z),
-                                          m[0].y * d.x + (m[1].y * d.y + m[2].y * d.z),
-                                          m[0].z * d.x + (m[1].z * d.y + m[2].z * d.z));
-            light.flux.emplace_back(double{image.at(x, y, 0)} * weight_sr,
-                                    double{image.at(x, y, 1)} * weight_sr,
-                                    double{image.at(x, y, 2)} * weight_sr);
-        }
-    }
-}
-
 }  // namespace
 
 SurfaceLight surfaceLightOf(const ProbeLight& light) {
@@ -74,6 +54,7 @@ EnvironmentIllumination environmentIllumination(const Environment& environment,
                                                 const SurfaceEnvironment& radiance, const Profile& profile,
                                                 int threads) {
     const Probe probe = probeOf(radiance);
+    const Arithmetic& arithmetic = profile.environment;
     EnvironmentIllumination illumination;
     EnvironmentLight& light = illumination.diffuse;
     std::vector<ProbeLight>& lights = illumination.lights;
@@ -84,7 +65,7 @@ EnvironmentIllumination environmentIllumination(const Environment& environment,
         case EnvironmentLightMethod::lights: {
             MedianCut cut;
             for (cut.log2Count = 0; (1 << cut.log2Count) < environment.lightCount;) cut.log2Count++;
-            lights = medianCutLights(probe, cut, threads).lights;
+            lights = medianCutLights(probe, cut, arithmetic, threads).lights;
             std::erase_if(lights, [](const ProbeLight& found) { return found.energy == glm::dvec3(0); });
             break;
         }
@@ -93,15 +74,21 @@ EnvironmentIllumination environmentIllumination(const Environment& environment,
             break;
         case EnvironmentLightMethod::harmonics:
             light.kind = EnvironmentLight::Kind::harmonics;
-            light.harmonics = irradianceOfHarmonics(projectHarmonics(probe, 2, threads));
+            // In double by rows of the image, which takes less time.
+            light.harmonics = irradianceOfHarmonics(arithmetic == Arithmetic::fp64
+                                                        ? projectHarmonics(probe, 2, threads)
+                                                        : projectHarmonics(probe, 2, arithmetic, threads));
             break;
-        case EnvironmentLightMethod::exact:
+        case EnvironmentLightMethod::exact: {
+            TexelLights texels = texelLights(probe, arithmetic, threads);
             light.kind = EnvironmentLight::Kind::texels;
-            setTexels(probe, light);
+            light.directions = std::move(texels.directions);
+            light.flux = std::move(texels.flux);
             break;
+        }
         case EnvironmentLightMethod::map:
             light.kind = EnvironmentLight::Kind::map;
-            light.map = facesOf(irradianceProbe(probe, cube, Arithmetic::fp64, threads), 1);
+            light.map = facesOf(irradianceProbe(probe, cube, arithmetic, threads), 1);
             break;
         case EnvironmentLightMethod::blurred: {
             // The reflective map in world axes, blurred with a kernel as wide as a face [Karlsson2005,
@@ -109,7 +96,7 @@ EnvironmentIllumination environmentIllumination(const Environment& environment,
             ProbeConversion conversion;
             conversion.shape = cube;
             conversion.resampling = Resampling::area;
-            const Probe reflective = convertProbe(probe, conversion, Arithmetic::fp64, threads);
+            const Probe reflective = convertProbe(probe, conversion, arithmetic, threads);
             light.kind = EnvironmentLight::Kind::map;
             light.map = facesOf(
                 blurredDiffuseMap(reflective, cube.width, cube.width / 2.0, profile.fragment, threads), kPi);

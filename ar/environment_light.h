@@ -18,7 +18,8 @@ struct EnvironmentIllumination {
 SurfaceLight surfaceLightOf(const ProbeLight& light);
 
 // What the environment lights surfaces with, as `environment.lighting` says. radiance: its image, or the constant,
-// and its rotation. Everything is computed in double; only the blurred map is blurred in the profile's arithmetic.
+// and its rotation. Computed in profile.environment, but: the blurred map is blurred in profile.fragment, harmonics
+// of radiance become those of irradiance in double (one product each), and dominant lights are found in double.
 EnvironmentIllumination environmentIllumination(const Environment& environment,
                                                 const SurfaceEnvironment& radiance, const Profile& profile,
                                                 int threads);

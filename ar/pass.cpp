@@ -17,6 +17,8 @@ std::string arithmeticOf(const Pass& pass) {
         case PassNumbers::vertex:
         case PassNumbers::vertexDepth:
             return vertex();
+        case PassNumbers::environment:
+            return arithmeticName(pass.profile->environment);
         case PassNumbers::fragment:
             break;
     }

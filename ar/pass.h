@@ -32,6 +32,7 @@ enum class PassNumbers : uint8_t {
     doubles,      // double, whatever the profile
     vertex,       // the profile's vertex arithmetic
     fragment,     // the profile's fragment arithmetic
+    environment,  // the profile's arithmetic for the light of environments
     vertexDepth,  // the profile's vertex arithmetic, its depth format and its subpixels
 };
 

@@ -50,20 +50,28 @@ class Planner : public std::enable_shared_from_this<Planner> {
     using Terms = std::vector<Result<ShadeTerm>>;
     using Occlusion = std::vector<Result<SurfaceOcclusion>>;
 
-    // Images are sampled with their sizes as numbers of the fragment arithmetic.
-    void requireSampling(const Profile& profile, const char* what, int line, int width, int height) const {
-        if (!profile.fragment.format) return;
+    // Images are sampled with their sizes as numbers of the arithmetic, of the profile's fragments mostly.
+    void requireSampling(const Profile& profile, const Arithmetic& arithmetic, const char* what, int line,
+                         int width, int height) const {
+        if (!arithmetic.format) return;
         for (const int size : {width, height})
-            if (!holds(*profile.fragment.format, size))
+            if (!holds(*arithmetic.format, size))
                 throw InputError(formatText(
                     "{}: {} of {}x{} texels cannot be sampled in the profile {}: its format holds no {}",
                     where(scene_, line), what, width, height, profile.name, size));
     }
-    void requireSampling(const Profile& profile, const EnvironmentImage& of) const {
+    void requireSampling(const Profile& profile, const char* what, int line, int width, int height) const {
+        requireSampling(profile, profile.fragment, what, line, width, height);
+    }
+    void requireSampling(const Profile& profile, const Arithmetic& arithmetic,
+                         const EnvironmentImage& of) const {
         const Image<float>& latLong = of.radiance.latLong;
         if (!latLong.empty())
-            requireSampling(profile, "an environment", scene_.environment.line, latLong.width(),
+            requireSampling(profile, arithmetic, "an environment", scene_.environment.line, latLong.width(),
                             latLong.height());
+    }
+    void requireSampling(const Profile& profile, const EnvironmentImage& of) const {
+        requireSampling(profile, profile.fragment, of);
     }
 
     bool asked(std::string_view output) const {
@@ -165,17 +173,21 @@ class Planner : public std::enable_shared_from_this<Planner> {
         const EnvironmentLightMethod method = scene_.environment.lighting;
         illumination_ = add(
             list,
-            textOf(std::string(kEnvironmentLight),
-                   formatText("surfaces are lit by the environment: {}", nameOf(method)),
-                   method == EnvironmentLightMethod::none ? "it lights no surfaces"
-                   : showing_.environmentIsBlack()        ? "the environment is black"
-                                                          : "",
-                   "neither diffuse nor specular runs", PassNumbers::doubles),
+            textOf(
+                std::string(kEnvironmentLight),
+                formatText("surfaces are lit by the environment: {}", nameOf(method)),
+                method == EnvironmentLightMethod::none ? "it lights no surfaces"
+                : showing_.environmentIsBlack()        ? "the environment is black"
+                                                       : "",
+                "neither diffuse nor specular runs",
+                method == EnvironmentLightMethod::dominant ? PassNumbers::doubles : PassNumbers::environment),
             EnvironmentIllumination{},
             [this, method](const PassContext& context, const EnvironmentImage& image) {
                 if (method == EnvironmentLightMethod::map || method == EnvironmentLightMethod::blurred)
                     requireSampling(context.profile, "a map of irradiance", scene_.environment.line,
                                     scene_.environment.mapSize, scene_.environment.mapSize);
+                if (method == EnvironmentLightMethod::blurred)
+                    requireSampling(context.profile, context.profile.environment, image);
                 return environmentIllumination(scene_.environment, image.radiance, context.profile,
                                                settings_.raster.threads);
             },

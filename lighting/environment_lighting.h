@@ -36,10 +36,9 @@ class EnvironmentLighting {
     int environmentDegree() const { return light_.harmonics.degree; }
     vec3 sumOfHarmonics(vec3 direction, int degree) { return harmonics_.sumOfHarmonics(direction, degree); }
     int texelLightCount() const { return static_cast<int>(texels_.size() / 6); }
-    vec3 texelLightDirection(int i) const { return load(6 * static_cast<size_t>(i)); }
-    vec3 texelLightFlux(int i) const { return load(6 * static_cast<size_t>(i) + 3); }
-    vec3 addIrradiance(const vec3& sum, const vec3& n, const vec3& direction, const vec3& flux) {
-        return irradiance_.addIrradiance(sum, n, direction, flux);
+    vec3 irradianceOfSources(const vec3& n, int first, int last) {
+        irradiance_.sources = texels_.data();
+        return irradiance_.irradianceOfSources(n, first, last);
     }
     vec3 mapAlong(vec3 direction) { return cube_.sampleCubeRgb(map_, direction, sampling_); }
 
@@ -57,10 +56,6 @@ class EnvironmentLighting {
             Number<T>::storeKept(irradiance_.flooredTerm(T(v[c])), lanes.data());
             texels_.push_back(lanes[0]);
         }
-    }
-    vec3 load(size_t i) const {
-        const auto number = [&](size_t j) { return Number<T>::broadcast(texels_[j]); };
-        return {number(i), number(i + 1), number(i + 2)};
     }
 
     const EnvironmentLight& light_;

@@ -49,9 +49,7 @@ class ConversionWriter {
         nearest_.filterMode = static_cast<int>(Filter::nearest);
     }
 
-    Point pointOf(Kernel& kernel, const typename Kernel::vec3& direction) const {
-        return kernel.mappingPoint(direction, sampling_.source);
-    }
+    const typename Kernel::MappingSettings& source() const { return sampling_.source; }
     Sample sampleAt(Kernel& kernel, const Point& p) const {
         if constexpr (Number<T>::isNative)
             return sampleFlattened(kernel, p);
@@ -107,36 +105,33 @@ void convertTexels(const ConversionJob& job, const ConversionWriter<T>& writer) 
     using Kernel = ConversionKernel<T>;
     using vec3 = typename Kernel::vec3;
     constexpr int kWidth = Number<T>::lanes;
-    std::array<vec3, 3> turn;
-    for (int row = 0; row < 3; row++)
-        turn[static_cast<size_t>(row)] = {T(job.turn[0][row]), T(job.turn[1][row]), T(job.turn[2][row])};
     const int parts = job.resampling == Resampling::area ? job.samplesPerAxis : 1;
     const LanedDirections<T> centres(job.target, 1), directions(job.target, parts);
+    const auto turnRow = [&](int row) {
+        return vec3(T(job.turn[0][row]), T(job.turn[1][row]), T(job.turn[2][row]));
+    };
+    const typename Kernel::TexelConversion conversion{
+        directions.settings(), writer.source(), job.isTurned ? 1 : 0, turnRow(0), turnRow(1), turnRow(2)};
     parallelForRowBlocks(job.target.height, job.threads, [&](int y0, int y1) {
         Kernel kernel;
-        const typename LanedDirections<T>::Weights weights(directions, y0, y1);
-        const auto pointOf = [&](vec3 d) {
-            return writer.pointOf(kernel, job.isTurned ? kernel.turned(d, turn[0], turn[1], turn[2]) : d);
-        };
-        // The mean of the parts of texels.
-        const auto area = [&](int layer, size_t first, int y) {
-            typename Kernel::ProbeMean mean{{T(0.0), T(0.0), T(0.0)}, T(0.0)};
-            for (int j = 0; j < parts; j++)
-                for (int i = 0; i < parts; i++)
-                    mean = kernel.addSample(
-                        mean, writer.sampleAt(kernel, pointOf(directions.at(kernel, layer, first, i, y, j))),
-                        weights.at(kernel, first, i, y, j));
-            return mean;
-        };
+        kernel.conversion = conversion;
+        kernel.writer = &writer;
+        const typename LanedDirections<T>::SolidAngles solidAngles(directions, y0, y1);
         for (int layer = 0; layer < job.target.layers(); layer++)
             forEachLaneGroup<kWidth>(static_cast<size_t>(job.target.width), [&](size_t first, int active) {
                 for (int y = y0; y < y1; y++) {
-                    const auto middle = [&] { return pointOf(centres.at(kernel, layer, first, 0, y, 0)); };
+                    const typename Kernel::integer ofLayer(layer);
+                    const auto middle = [&] {
+                        centres.select(kernel, first, y);
+                        return kernel.partPoint(ofLayer, 0, 0);
+                    };
                     typename Kernel::ProbeSample sample;
                     if (parts == 1) {
                         sample = writer.sampleAt(kernel, middle());
                     } else {
-                        const auto mean = area(layer, first, y);
+                        directions.select(kernel, first, y);
+                        kernel.texels.solidAngles = solidAngles.of(y);
+                        const auto mean = kernel.meanOfParts(ofLayer, parts);
                         sample = kernel.probeSample(mean.rgb, mean.weight > T(0.0));
                         if (kernel.isAny(!sample.isShown))
                             sample = kernel.shownOr(sample, writer.sampleAt(kernel, middle()));

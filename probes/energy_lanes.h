@@ -1,16 +1,72 @@
-// The passes of probes/energy_passes.h in N lanes, for the source that is compiled once per level.
+// The passes of probes/energy_passes.h, for the sources that are compiled once per level. The text is
+// probes/kernels/energy.glsl.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <limits>
 
-#include "numeric/lanes.h"
+#include "numeric/parallel.h"
 #include "probes/energy_passes.h"
+#include "probes/flux.h"
+#include "probes/term_sums.h"
 
 namespace etalon {
 
 inline constexpr double kLargestRadiance = std::numeric_limits<float>::max();
+
+// What energy.glsl reads, and the text, over T: the radiance of a region, in lanes of columns. `part` is the column of
+// the region where the lanes begin, `most` how many of them hold values.
+template <class T>
+struct EnergyKernel {
+#include "numeric/kernel_scope.inc"
+#include "numeric/kernels/vector.glsl"
+#include "probes/flux_scope.inc"
+#include "probes/kernels/flux.glsl"
+    static constexpr int kWidth = Number<T>::lanes;
+    using Floats = Lanes<float, kWidth>;
+    using Counts = Lanes<int32_t, kWidth>;
+
+    const Image<float>* image;
+    TexelRegion region;
+    const double* rowWeights;
+    int part = 0, most = kWidth;
+    Counts uncounted{0.0};  // values that do not count
+
+    vec3 countedRadiance(int x, int y) {
+        const int column = part + x, active = std::clamp(region.width() - column, 0, most);
+        const float* from = image->row(region.y0 + y, 0).data() + std::min(region.x0 + column, region.x1);
+        const size_t plane = image->pixelCount();
+        return {counted(from, active), counted(from + plane, active), counted(from + 2 * plane, active)};
+    }
+    real regionWeight(int y) const { return T(rowWeights[region.y0 + y]); }
+#include "probes/kernels/energy.glsl"
+
+  private:
+    // The first `active` values as numbers of T, inside its finite ones; those that do not count, and those behind
+    // them, as 0.
+    real counted(const float* from, int active) {
+        Floats v;
+        if (active == kWidth)
+            v = Floats::load(from);
+        else
+            v = Floats::generate([&](int i) { return i < active ? from[i] : 0.0f; });
+        const auto counts = v >= Floats(0.0) && v <= Floats(kLargestRadiance);
+        uncounted = uncounted + etalon::select(convertMask<int32_t>(counts), Counts(0.0), Counts(1.0));
+        v = etalon::select(counts, v, Floats(0.0));
+        if constexpr (std::is_same_v<T, Lanes<double, kWidth>>)
+            return convertLanes<double>(v);
+        else {
+            std::array<float, kWidth> stored;
+            v.store(stored.data());
+            const real number = Number<T>::load(stored.data());
+            if constexpr (Number<T>::isNative)
+                return number;
+            else
+                return finiteTerm(number);
+        }
+    }
+};
 
 // `active` values, those that do not count and those behind them as 0.
 template <int N>
@@ -39,17 +95,16 @@ void addRowsToTable(const Image<float>& radiance, int firstRow, const double* ro
         green[r] = radiance.row(y, 1).data();
         blue[r] = radiance.row(y, 2).data();
     }
+    EnergyKernel<D> kernel{};
     D rowSums(0.0);
     forEachLaneGroup<N>(width, [&](size_t first, int active) {
         std::array<D, N> block;
 #pragma GCC unroll 8
         for (size_t r = 0; r < N; r++) {
-            const D rgb[3] = {countedRadianceOf<N>(red[r] + first, active),
-                              countedRadianceOf<N>(green[r] + first, active),
-                              countedRadianceOf<N>(blue[r] + first, active)};
-            // energyOf (probes/probe_light.h)
-            const D energy = D(0.2125) * rgb[0] + (D(0.7154) * rgb[1] + D(0.0721) * rgb[2]);
-            block[r] = D(rowWeights[firstRow + static_cast<int>(r)]) * energy;
+            block[r] = kernel.texelEnergy(
+                {countedRadianceOf<N>(red[r] + first, active), countedRadianceOf<N>(green[r] + first, active),
+                 countedRadianceOf<N>(blue[r] + first, active)},
+                D(rowWeights[firstRow + static_cast<int>(r)]));
         }
         transposeLanes(block);
 #pragma GCC unroll 8
@@ -77,48 +132,60 @@ void bandOfTable(const Image<float>& radiance, int firstRow, int lastRow, const 
         addRowsToTable<1>(radiance, y, rowWeights, y == firstRow ? nullptr : row(y - 1), row(y));
 }
 
-// Eight partial sums in N lanes.
-template <int N>
-RegionSums regionSums(const Image<float>& radiance, const TexelRegion& region, const double* rowWeights) {
-    constexpr size_t kSums = 8, kVectors = kSums / N;
-    using D = Lanes<double, N>;
-    const auto count = static_cast<size_t>(region.width());
-    RegionSums result;
-    D uncounted(0.0);
-    for (int c = 0; c < 3; c++) {
-        std::array<D, kVectors> sums;
-        sums.fill(D(0.0));
-        for (int y = region.y0; y < region.y1; y++) {
-            const float* values = radiance.row(y, c).data() + region.x0;
-            std::array<D, kVectors> rowSums;
-            rowSums.fill(D(0.0));
-            const auto add = [&](size_t vector, const D& v) {
-                const auto counts = v >= D(0.0) && v <= D(kLargestRadiance);
-                rowSums[vector] = rowSums[vector] + select(counts, v, D(0.0));
-                uncounted = uncounted + select(counts, D(0.0), D(1.0));
-            };
-            size_t first = 0;
-            for (; first + kSums <= count; first += kSums)
-#pragma GCC unroll 8
-                for (size_t i = 0; i < kVectors; i++)
-                    add(i, convertLanes<double>(Lanes<float, N>::load(values + first + i * N)));
-            if (first < count) {
-                std::array<float, kSums> rest{};
-                std::copy(values + first, values + count, rest.begin());
-#pragma GCC unroll 8
-                for (size_t i = 0; i < kVectors; i++)
-                    add(i, convertLanes<double>(Lanes<float, N>::load(rest.data() + i * N)));
-            }
-            for (size_t i = 0; i < kVectors; i++) sums[i] = sums[i] + D(rowWeights[y]) * rowSums[i];
+template <class T>
+RegionSums regionSumsOver(const Image<float>& radiance, const TexelRegion& region, const double* rowWeights) {
+    using Kept = typename Number<T>::Kept;
+    constexpr int kParts = 8, kWidth = Number<T>::lanes;
+    constexpr size_t kTerms = paddedTerms<T>(3);
+    EnergyKernel<T> kernel{.image = &radiance, .region = region, .rowWeights = rowWeights};
+    kernel.most = std::min(kWidth, kParts);
+    std::array<Kept, kParts * kTerms> sums;
+    sums.fill(Kept(0.0));
+    std::array<Kept, kWidth> lanes;
+    for (; kernel.part < kParts; kernel.part += kernel.most) {
+        const auto sum = kernel.regionSum(region.width(), region.height(), kParts);
+        for (int c = 0; c < 3; c++) {
+            Number<T>::storeKept(sum[c], lanes.data());
+            for (int i = 0; i < kernel.most; i++)
+                sums[static_cast<size_t>(kernel.part + i) * kTerms + static_cast<size_t>(c)] =
+                    lanes[static_cast<size_t>(i)];
         }
-        std::array<double, kSums> partial;
-        for (size_t i = 0; i < kVectors; i++) sums[i].store(partial.data() + i * N);
-        for (size_t half = kSums / 2; half > 0; half /= 2)
-            for (size_t i = 0; i < half; i++) partial[i] += partial[i + half];
-        result.energy[c] = partial[0];
     }
-    for (int lane = 0; lane < N; lane++) result.uncountedValues += static_cast<size_t>(uncounted[lane]);
+    foldTerms<T>(sums.data(), kTerms, kParts);
+    RegionSums result;
+    for (int c = 0; c < 3; c++) result.energy[c] = termAsDouble(sums[static_cast<size_t>(c)]);
+    for (int i = 0; i < kWidth; i++) result.uncountedValues += static_cast<size_t>(kernel.uncounted[i]);
     return result;
+}
+template <class T>
+[[gnu::flatten]] RegionSums flattenedRegionSums(const Image<float>& radiance, const TexelRegion& region,
+                                                const double* rowWeights) {
+    return regionSumsOver<T>(radiance, region, rowWeights);
+}
+template <class T>
+RegionSums regionSums(const Image<float>& radiance, const TexelRegion& region, const double* rowWeights) {
+    if constexpr (Number<T>::isNative)
+        return flattenedRegionSums<T>(radiance, region, rowWeights);
+    else
+        return regionSumsOver<T>(radiance, region, rowWeights);
+}
+
+template <class T>
+Image<double> texelEnergies(const Image<float>& radiance, const double* rowWeights, int threads) {
+    Image<double> energies(radiance.width(), radiance.height());
+    parallelFor(static_cast<size_t>(radiance.height()), threads, [&](size_t row) {
+        const int y = static_cast<int>(row);
+        EnergyKernel<T> kernel{.image = &radiance,
+                               .region = {0, 0, radiance.width(), radiance.height()},
+                               .rowWeights = rowWeights};
+        const T weight = kernel.regionWeight(y);
+        forEachLaneGroup<Number<T>::lanes>(static_cast<size_t>(radiance.width()), [&](size_t first,
+                                                                                      int active) {
+            Number<T>::store(kernel.texelEnergy(kernel.countedRadiance(static_cast<int>(first), y), weight),
+                             energies.row(y).data() + first, active);
+        });
+    });
+    return energies;
 }
 
 }  // namespace etalon

@@ -6,8 +6,7 @@
 namespace etalon {
 
 template <>
-constexpr EnergyPasses kPassesOver<EnergyPasses, void> = {bandOfTable<kNativeLanes<double>>,
-                                                          regionSums<kNativeLanes<double>>};
+constexpr EnergyPasses kPassesOver<EnergyPasses, void> = {bandOfTable<kNativeLanes<double>>};
 template const EnergyPasses& ETALON_LEVEL::passesOf<EnergyPasses>();
 
 }  // namespace etalon

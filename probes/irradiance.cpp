@@ -14,6 +14,10 @@ std::vector<glm::dvec3> irradianceAt(const Probe& probe, std::span<const glm::dv
     return passesIn<IrradiancePasses>(arithmetic)->irradianceAt(probe, normals, threads);
 }
 
+TexelLights texelLights(const Probe& probe, Arithmetic arithmetic, int threads) {
+    return passesIn<IrradiancePasses>(arithmetic)->texelLights(probe, threads);
+}
+
 std::vector<glm::dvec3> texelDirections(const ProbeShape& shape) {
     const TexelGrid grid(shape);
     std::vector<glm::dvec3> directions;

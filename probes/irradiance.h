@@ -1,5 +1,5 @@
-// Irradiance: what a plane receives from a probe, W/m^2, over the plane's normal. The text is
-// probes/kernels/irradiance.glsl.
+// Irradiance: what a plane receives from a probe, W/m^2, over the plane's normal. The texts are
+// probes/kernels/{irradiance,irradiance_sums}.glsl.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -20,6 +20,8 @@ struct IrradianceKernel {
 #include "numeric/kernels/vector.glsl"
 #include "probes/kernels/flux.glsl"
 #include "probes/kernels/irradiance.glsl"
+#include "probes/irradiance_scope.inc"
+#include "probes/kernels/irradiance_sums.glsl"
 };
 
 // The irradiance of planes with these unit normals (world): the sum over all texels of radiance, solid angle
@@ -32,6 +34,13 @@ struct IrradianceKernel {
 std::vector<glm::dvec3> irradianceAt(const Probe& probe, std::span<const glm::dvec3> normals,
                                      Arithmetic arithmetic, int threads = 0);
 inline constexpr int kIrradianceRun = 32;
+
+// Of each texel in order the unit vector to it, in the world, and what it gives to a plane that faces it, as the sum above
+// adds them: rounded to the arithmetic, flux without the scale of probes/flux.h.
+struct TexelLights {
+    std::vector<glm::dvec3> directions, flux;
+};
+TexelLights texelLights(const Probe& probe, Arithmetic arithmetic, int threads = 0);
 
 // Its largest relative error (arithmetic of the sum, of directions and of solid angles, not the midpoint
 // rule) against the same sum in double, for non-negative radiance inside the normal range of the format that

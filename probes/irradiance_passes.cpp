@@ -2,34 +2,31 @@
 
 #include "numeric/door.h"
 #include "numeric/parallel.h"
-#include "probes/term_sums.h"
 #include "probes/texel_rows_over.h"
 
 namespace etalon {
 namespace {
 
-// What a texel adds, in the arithmetic: direction and flux.
 template <class T>
-struct TexelTerms {
-    typename Number<T>::Kept x, y, z, red, green, blue;
-};
+using Terms = std::vector<typename Number<T>::Kept>;
+constexpr size_t kTermNumbers = 6;
 
-// Of all texels in order, the last run filled up with black ones.
+// What each texel adds, in the arithmetic, in order: direction and flux. The last run is filled up with black ones.
 template <class T>
-std::vector<TexelTerms<T>> texelTerms(const Probe& probe, int threads) {
+Terms<T> texelTerms(const Probe& probe, int threads) {
+    using Kept = typename Number<T>::Kept;
     constexpr int kWidth = Number<T>::lanes;
     checkProbe(probe);
     const TexelGrid grid(probe.shape);
     const auto width = static_cast<size_t>(probe.shape.width);
     const auto rows = static_cast<size_t>(probe.shape.layers() * probe.shape.height);
     const size_t runs = (rows * width + kIrradianceRun - 1) / kIrradianceRun;
-    const typename Number<T>::Kept zero(0.0);
-    std::vector<TexelTerms<T>> terms(runs * kIrradianceRun, {zero, zero, zero, zero, zero, zero});
+    Terms<T> terms(runs * kIrradianceRun * kTermNumbers, Kept(0.0));
     parallelFor(rows, threads, [&](size_t r) {
         const TexelRow row = readTexels(probe, grid, static_cast<int>(r) / probe.shape.height,
                                         static_cast<int>(r) % probe.shape.height);
         IrradianceKernel<T> kernel;
-        std::array<std::array<typename Number<T>::Kept, kWidth>, 6> lanes;
+        std::array<Kept, kWidth> lanes;
         forEachLaneGroup<kWidth>(width, [&](size_t first, int active) {
             typename IrradianceKernel<T>::vec3 direction, radiance;
             for (int c = 0; c < 3; c++) {
@@ -39,40 +36,33 @@ std::vector<TexelTerms<T>> texelTerms(const Probe& probe, int threads) {
             }
             const auto d = kernel.flooredTerm3(direction);
             const auto flux = kernel.texelFlux(radiance, Number<T>::load(row.weight.data() + first));
-            for (int c = 0; c < 3; c++) {
-                Number<T>::storeKept(d[c], lanes[static_cast<size_t>(c)].data());
-                Number<T>::storeKept(flux[c], lanes[static_cast<size_t>(c) + 3].data());
+            Kept* to = terms.data() + (r * width + first) * kTermNumbers;
+            for (size_t number = 0; number < kTermNumbers; number++) {
+                const auto c = static_cast<glm::length_t>(number % 3);
+                Number<T>::storeKept(number < 3 ? d[c] : flux[c], lanes.data());
+                for (size_t i = 0; i < static_cast<size_t>(active); i++)
+                    to[i * kTermNumbers + number] = lanes[i];
             }
-            for (size_t i = 0; i < static_cast<size_t>(active); i++)
-                terms[r * width + first + i] = {lanes[0][i], lanes[1][i], lanes[2][i],
-                                                lanes[3][i], lanes[4][i], lanes[5][i]};
         });
     });
     return terms;
 }
 
-// A sum in pairs of neighbours of a sequence of terms: `pending` holds the sums of 2^k terms for the bits k
-// that are set in the count, the longest first.
-template <class Vector>
-class PairSum {
-  public:
-    template <class Add>
-    void push(Vector term, const Add& add) {
-        for (size_t carry = count_++; (carry & 1) != 0; carry >>= 1) term = add(pending_[--depth_], term);
-        pending_[depth_++] = term;
-    }
-    // At least one term was pushed.
-    template <class Add>
-    Vector total(const Add& add) const {
-        Vector sum = pending_[depth_ - 1];
-        for (size_t i = depth_ - 1; i > 0; i--) sum = add(pending_[i - 1], sum);
-        return sum;
-    }
-
-  private:
-    std::array<Vector, 40> pending_;
-    size_t depth_ = 0, count_ = 0;
-};
+template <class T>
+TexelLights texelLightsOver(const Probe& probe, int threads) {
+    const Terms<T> terms = texelTerms<T>(probe, threads);
+    const ProbeShape& shape = probe.shape;
+    const size_t texels = static_cast<size_t>(shape.layers()) * static_cast<size_t>(shape.width) *
+                          static_cast<size_t>(shape.height);
+    TexelLights lights{std::vector<glm::dvec3>(texels), std::vector<glm::dvec3>(texels)};
+    for (size_t i = 0; i < texels; i++)
+        for (size_t c = 0; c < 3; c++) {
+            const auto* term = terms.data() + i * kTermNumbers + c;
+            lights.directions[i][static_cast<glm::length_t>(c)] = numberLane(term[0], 0);
+            lights.flux[i][static_cast<glm::length_t>(c)] = numberLane(term[3], 0) / kFluxScale;
+        }
+    return lights;
+}
 
 template <class T>
 std::vector<glm::dvec3> irradianceAtOver(const Probe& probe, std::span<const glm::dvec3> normals,
@@ -82,40 +72,30 @@ std::vector<glm::dvec3> irradianceAtOver(const Probe& probe, std::span<const glm
     constexpr size_t kWidth = Number<T>::lanes;
     // Groups of lanes that share a walk over the texels.
     constexpr size_t kGroups = 4, kItem = kGroups * kWidth;
-    const std::vector<TexelTerms<T>> terms = texelTerms<T>(probe, threads);
+    const Terms<T> terms = texelTerms<T>(probe, threads);
+    const auto runs = static_cast<int>(terms.size() / (kTermNumbers * kIrradianceRun));
     std::vector<glm::dvec3> values(normals.size());
     parallelFor((normals.size() + kItem - 1) / kItem, threads, [&](size_t item) {
+        const size_t first = item * kItem, count = std::min(normals.size() - first, kItem);
         Kernel kernel;
         std::array<vec3, kGroups> normal;
         for (size_t g = 0; g < kGroups; g++) {
             for (int c = 0; c < 3; c++)
                 normal[g][c] = Number<T>::generate([&](int lane) {
-                    const size_t i = item * kItem + g * kWidth + static_cast<size_t>(lane);
+                    const size_t i = first + g * kWidth + static_cast<size_t>(lane);
                     return normals[std::min(i, normals.size() - 1)][c];
                 });
             normal[g] = kernel.flooredTerm3(normal[g]);
         }
-        const auto add = [&](const vec3& a, const vec3& b) { return kernel.add3(a, b); };
-        std::array<PairSum<vec3>, kGroups> sums;
-        for (size_t first = 0; first < terms.size(); first += kIrradianceRun)
-            for (size_t g = 0; g < kGroups && item * kItem + g * kWidth < normals.size(); g++) {
-                const vec3 n = normal[g];
-                vec3 sum{T(0.0), T(0.0), T(0.0)};
-                for (size_t i = first; i < first + kIrradianceRun; i++) {
-                    const TexelTerms<T>& t = terms[i];
-                    sum = kernel.addIrradiance(
-                        sum, n,
-                        {Number<T>::broadcast(t.x), Number<T>::broadcast(t.y), Number<T>::broadcast(t.z)},
-                        {Number<T>::broadcast(t.red), Number<T>::broadcast(t.green),
-                         Number<T>::broadcast(t.blue)});
-                }
-                sums[g].push(sum, add);
-            }
-        for (size_t i = item * kItem; i < std::min(normals.size(), (item + 1) * kItem); i++) {
-            const size_t lane = i % kWidth;
-            const vec3 total = sums[i % kItem / kWidth].total(add);
+        std::array<vec3, kGroups * Kernel::kPendingSums> sums;
+        kernel.sources = terms.data();
+        kernel.planeNormals = normal.data();
+        kernel.pendingSums = sums.data();
+        kernel.irradianceOfPlanes(static_cast<int>((count + kWidth - 1) / kWidth), runs, kIrradianceRun);
+        for (size_t i = 0; i < count; i++) {
+            const vec3 total = kernel.pendingSum(static_cast<int>(i / kWidth), 0);
             for (int c = 0; c < 3; c++)
-                values[i][c] = numberLane(total[c], static_cast<int>(lane)) / kFluxScale;
+                values[first + i][c] = numberLane(total[c], static_cast<int>(i % kWidth)) / kFluxScale;
         }
     });
     return values;
@@ -124,7 +104,7 @@ std::vector<glm::dvec3> irradianceAtOver(const Probe& probe, std::span<const glm
 }  // namespace
 
 template <class T>
-constexpr IrradiancePasses kPassesOver<IrradiancePasses, T> = {irradianceAtOver<T>};
+constexpr IrradiancePasses kPassesOver<IrradiancePasses, T> = {irradianceAtOver<T>, texelLightsOver<T>};
 template const IrradiancePasses& ETALON_LEVEL::passesOf<IrradiancePasses>(NumberType);
 
 }  // namespace etalon

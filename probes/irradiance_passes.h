@@ -11,6 +11,7 @@ struct IrradiancePasses {
     // probes/irradiance.h
     std::vector<glm::dvec3> (*irradianceAt)(const Probe& probe, std::span<const glm::dvec3> normals,
                                             int threads);
+    TexelLights (*texelLights)(const Probe& probe, int threads);
 };
 
 }  // namespace etalon

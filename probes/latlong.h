@@ -44,6 +44,28 @@ struct LatLongKernel {
 #include "raster/kernels/cube_face.glsl"
 };
 
+// What cube_of_latlong.glsl reads, and the text, over T: the parts of the texels of a row from a column on.
+template <class T>
+struct CubeOfLatLongKernel {
+#include "numeric/kernel_scope.inc"
+#include "numeric/kernels/vector.glsl"
+#include "raster/texture_scope.inc"
+#include "raster/kernels/sampler.glsl"
+#include "raster/kernels/cube_face.glsl"
+#include "probes/kernels/latlong.glsl"
+    struct Texels {
+        const LanedColumns<T>* columns;
+        int rows, partsPerAxis;
+        size_t column = 0;
+        int row = 0;
+    };
+    Texels texels;
+
+    real partU(int i) const { return texels.columns->at(texels.column, i); }
+    real partV(int j) const { return T(coordinateOf(texels.row, j, texels.rows, texels.partsPerAxis)); }
+#include "probes/kernels/cube_of_latlong.glsl"
+};
+
 // Directions and solid angles of the texels of a lat-long image, from tables per row and column in double.
 class LatLongGrid {
   public:
@@ -87,36 +109,27 @@ CubeMap<float> cubeFromLatLong(const Image<float>& latLong, int size, const Cube
     ETALON_CHECK(latLong.channels() == 3 && size > 0, "{} channels, size {}", latLong.channels(), size);
     const int parts = options.samplesPerAxis;
     ETALON_CHECK(parts >= 1 && parts <= kMaxSamplesPerAxis, "{} samples per axis", parts);
-    using Kernel = LatLongKernel<T>;
-    using vec3 = typename Kernel::vec3;
+    using Kernel = CubeOfLatLongKernel<T>;
     constexpr int kWidth = Number<T>::lanes;
     const TextureView texture(latLong);
     const auto sampling = samplingOf<Kernel>(
         {options.filter, Wrap::repeat, Wrap::clamp, options.fractionBits}, latLong.width(), latLong.height());
     const LanedColumns<T> columns(size, parts,
                                   [&](int x, int part) { return coordinateOf(x, part, size, parts); });
-    const T weight(1.0 / (parts * parts));
+    const T share(1.0 / (parts * parts));
 
     CubeMap<float> cube(size, 3);
     parallelForRowBlocks(size, threads, [&](int y0, int y1) {
-        Kernel kernel;
+        Kernel kernel{{&columns, size, parts}};
         for (int face = 0; face < kCubeFaces; face++) {
             Image<float>& image = cube.faces[static_cast<size_t>(face)];
             forEachLaneGroup<kWidth>(static_cast<size_t>(size), [&](size_t first, int active) {
+                kernel.texels.column = first;
                 for (int y = y0; y < y1; y++) {
-                    vec3 sum{T(0.0), T(0.0), T(0.0)};
-                    for (int j = 0; j < parts; j++)
-                        for (int i = 0; i < parts; i++) {
-                            const vec3 direction =
-                                kernel.cubeDirection(typename Kernel::integer(face), columns.at(first, i),
-                                                     T(coordinateOf(y, j, size, parts)));
-                            const vec3 value = kernel.sampleLatLong(texture, direction, sampling);
-                            for (int c = 0; c < 3; c++)
-                                sum[c] = i == 0 && j == 0 ? value[c] : sum[c] + value[c];
-                        }
+                    kernel.texels.row = y;
+                    const auto rgb = kernel.cubeTexelOfLatLong(texture, face, parts, share, sampling);
                     for (int c = 0; c < 3; c++)
-                        Number<T>::store(parts == 1 ? sum[c] : sum[c] * weight,
-                                         image.row(y, c).data() + first, active);
+                        Number<T>::store(rgb[c], image.row(y, c).data() + first, active);
                 }
             });
         }

@@ -1,5 +1,5 @@
 // Irradiance from the lights of a probe, for every direction of a surface. The text is
-// probes/kernels/irradiance.glsl.
+// probes/kernels/irradiance_sums.glsl.
 #pragma once
 
 #include <array>
@@ -17,6 +17,33 @@ namespace etalon {
 // probeErrors().meanOfLights (probes/probe_errors.h).
 inline constexpr double kMeanOfTexelsError = 0.75;
 
+// What irradiance_sums.glsl reads, and the texts, over T: one plane at a time, the sources as they lie in lanes.
+template <class T>
+struct LightIrradianceKernel {
+#include "numeric/kernel_scope.inc"
+#include "probes/flux_scope.inc"
+#include "numeric/kernels/vector.glsl"
+#include "probes/kernels/flux.glsl"
+#include "probes/kernels/irradiance.glsl"
+    struct Source {
+        vec3 direction, flux;
+    };
+    const Source* sources;
+    vec3 onlyNormal, onlySum;
+
+    const vec3& sourceDirection(int i) const { return sources[i].direction; }
+    const vec3& sourceFlux(int i) const { return sources[i].flux; }
+    const vec3& planeNormal(int) const { return onlyNormal; }
+    const vec3& pendingSum(int, int) const { return onlySum; }
+    void setPendingSum(int, int, const vec3& sum) { onlySum = sum; }
+#include "probes/kernels/irradiance_sums.glsl"
+
+    // The sum stays in registers: as calls, its steps pass it through memory.
+    [[gnu::flatten]] vec3 flattenedIrradiance(const vec3& n, int count) {
+        return irradianceOfSources(n, 0, count);
+    }
+};
+
 // For the direction n of each texel (of the world) the sum over the lights of energy max(0, n . direction),
 // three channels in W/m^2, added in the lights' order from 0; directions and energies are rounded once to T.
 // Neither threads nor lanes change a bit.
@@ -28,15 +55,12 @@ inline constexpr double kMeanOfTexelsError = 0.75;
 template <class T>
 std::vector<Image<double>> irradianceOfLights(std::span<const ProbeLight> lights, const ProbeShape& shape,
                                               int threads = 0) {
-    using Kernel = IrradianceKernel<T>;
+    using Kernel = LightIrradianceKernel<T>;
     using vec3 = typename Kernel::vec3;
     constexpr int kWidth = Number<T>::lanes;
-    struct Light {
-        vec3 direction, energy;
-    };
-    std::vector<Light> rounded;
+    std::vector<typename Kernel::Source> sources;
     for (const ProbeLight& l : lights)
-        rounded.push_back({vec3(T(l.direction.x), T(l.direction.y), T(l.direction.z)),
+        sources.push_back({vec3(T(l.direction.x), T(l.direction.y), T(l.direction.z)),
                            vec3(T(l.energy.x), T(l.energy.y), T(l.energy.z))});
     const TexelGrid grid(shape);
     std::vector<Image<double>> irradiance(static_cast<size_t>(shape.layers()),
@@ -45,7 +69,7 @@ std::vector<Image<double>> irradianceOfLights(std::span<const ProbeLight> lights
     parallelFor(irradiance.size() * height, threads, [&](size_t item) {
         const int layer = static_cast<int>(item / height), y = static_cast<int>(item % height);
         Image<double>& image = irradiance[static_cast<size_t>(layer)];
-        Kernel kernel;
+        Kernel kernel{sources.data(), {}, {}};
         forEachLaneGroup<kWidth>(static_cast<size_t>(shape.width), [&](size_t first, int active) {
             std::array<glm::dvec3, kWidth> directions;
             for (int i = 0; i < kWidth; i++)
@@ -55,9 +79,12 @@ std::vector<Image<double>> irradianceOfLights(std::span<const ProbeLight> lights
                 return Number<T>::generate([&](int i) { return directions[static_cast<size_t>(i)][c]; });
             };
             const vec3 normal(component(0), component(1), component(2));
-            vec3 sum(T(0.0), T(0.0), T(0.0));
-            for (const Light& light : rounded)
-                sum = kernel.addIrradiance(sum, normal, light.direction, light.energy);
+            const auto count = static_cast<int>(lights.size());
+            vec3 sum;
+            if constexpr (Number<T>::isNative)
+                sum = kernel.flattenedIrradiance(normal, count);
+            else
+                sum = kernel.irradianceOfSources(normal, 0, count);
             for (int c = 0; c < 3; c++)
                 for (int i = 0; i < active; i++)
                     image.at(static_cast<int>(first) + i, y, c) = numberLane(sum[c], i);

@@ -1,6 +1,7 @@
 #include "probes/light_passes.h"
 
 #include "numeric/door.h"
+#include "probes/energy_lanes.h"
 #include "probes/light_irradiance.h"
 #include "probes/summed_area.h"
 
@@ -8,7 +9,7 @@ namespace etalon {
 
 template <class T>
 constexpr LightPasses kPassesOver<LightPasses, T> = {roundedValues<T>, summedArea<T>, boxSums<T>,
-                                                     irradianceOfLights<T>};
+                                                     texelEnergies<T>, regionSums<T>, irradianceOfLights<T>};
 template const LightPasses& ETALON_LEVEL::passesOf<LightPasses>(NumberType);
 
 }  // namespace etalon

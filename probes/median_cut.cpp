@@ -9,9 +9,8 @@
 #include "numeric/elementary.h"
 #include "numeric/parallel.h"
 #include "numeric/vectors.h"
-#include "probes/energy_passes.h"
 #include "probes/latlong.h"
-#include "probes/summed_area.h"
+#include "probes/light_passes.h"
 
 namespace etalon {
 namespace {
@@ -143,7 +142,8 @@ std::optional<glm::dvec3> positionAt(const Probe& probe, const ImagePoint& p, co
 
 // Of a probe whose counted radiance is `radiance`.
 LightsOfProbe lightsIn(const Image<float>& radiance, const Probe& probe, const EnergyTable& table,
-                       std::span<const TexelRegion> regions, const MedianCut& options, int threads) {
+                       std::span<const TexelRegion> regions, const MedianCut& options, Arithmetic arithmetic,
+                       int threads) {
     const int width = probe.shape.width, height = probe.shape.height;
     ETALON_CHECK(
         probe.shape.mapping == Mapping::latLong && table.width() == width && table.height() == height,
@@ -154,11 +154,12 @@ LightsOfProbe lightsIn(const Image<float>& radiance, const Probe& probe, const E
     LightsOfProbe result;
     result.lights.resize(regions.size());
     std::vector<size_t> uncounted(regions.size());
+    const auto passes = passesIn<LightPasses>(arithmetic);
     parallelFor(regions.size(), threads, [&](size_t i) {
         const TexelRegion& r = regions[i];
         ProbeLight& light = result.lights[i];
         light.region = r;
-        const RegionSums sums = levelPasses<EnergyPasses>().regionSums(radiance, r, weights.data());
+        const RegionSums sums = passes->regionSums(radiance, r, weights.data());
         light.energy = sums.energy;
         uncounted[i] = sums.uncountedValues;
         for (int y = r.y0; y < r.y1; y++)
@@ -210,17 +211,29 @@ std::vector<TexelRegion> medianCutRegions(const EnergyTable& table, const Median
 LightsOfProbe lightsOfRegions(const Probe& probe, const EnergyTable& table,
                               std::span<const TexelRegion> regions, const MedianCut& options, int threads) {
     Image<float> masked;
-    return lightsIn(countedRadiance(probe, masked), probe, table, regions, options, threads);
+    return lightsIn(countedRadiance(probe, masked), probe, table, regions, options, Arithmetic::fp64,
+                    threads);
 }
 
 LightsOfProbe medianCutLights(const Probe& probe, const MedianCut& options, int threads) {
+    return medianCutLights(probe, options, Arithmetic::fp64, threads);
+}
+
+LightsOfProbe medianCutLights(const Probe& probe, const MedianCut& options, Arithmetic arithmetic,
+                              int threads) {
     ETALON_CHECK(probe.shape.mapping == Mapping::latLong && options.log2Count >= 0, "mapping {}, 2^{} lights",
                  static_cast<int>(probe.shape.mapping), options.log2Count);
     const std::vector<double> weights = texelWeights(probe.shape.width, probe.shape.height, options.weight);
     Image<float> masked;
     const Image<float>& radiance = countedRadiance(probe, masked);
-    const EnergyTable table(radiance, weights, threads);
-    return lightsIn(radiance, probe, table, medianCutRegions(table, options), options, threads);
+    const auto tableOf = [&] {
+        if (arithmetic == Arithmetic::fp64) return EnergyTable(radiance, weights, threads);
+        const auto passes = passesIn<LightPasses>(arithmetic);
+        return EnergyTable(
+            passes->summedArea(passes->texelEnergies(radiance, weights.data(), threads), threads));
+    };
+    const EnergyTable table = tableOf();
+    return lightsIn(radiance, probe, table, medianCutRegions(table, options), options, arithmetic, threads);
 }
 
 }  // namespace etalon

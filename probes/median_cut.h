@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "numeric/arithmetic.h"
 #include "probes/probe.h"
 #include "probes/probe_light.h"
 #include "probes/summed_area.h"
@@ -79,6 +80,11 @@ struct LightsOfProbe {
 // position_m: where the probe has distances, of the texel that the light lies in, if that distance is finite
 // and above 0. `threads` as in parallelFor; neither it nor the instruction set changes a bit.
 LightsOfProbe medianCutLights(const Probe& probe, const MedianCut& options = {}, int threads = 0);
+
+// The same with the texels' energies, their summed-area table (summedArea) and the lights' energies in an arithmetic;
+// differences of the table's entries, places and solid angles stay in double.
+LightsOfProbe medianCutLights(const Probe& probe, const MedianCut& options, Arithmetic arithmetic,
+                              int threads = 0);
 
 // Its two steps, for tables of another arithmetic: the regions, and their lights. The table and the regions
 // are of the probe's size.

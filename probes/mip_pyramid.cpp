@@ -5,6 +5,7 @@
 
 #include "numeric/check.h"
 #include "numeric/elementary.h"
+#include "numeric/kernel_types.h"
 #include "numeric/parallel.h"
 #include "numeric/vectors.h"
 #include "probes/texel_grid.h"
@@ -61,6 +62,33 @@ class Rectangles {
     int64_t columns_, rows_;
 };
 
+// What mip.glsl reads, and the text, over T: one texel's parts in a layer of the finer level.
+template <class T>
+struct MipKernel {
+#include "numeric/kernel_scope.inc"
+#include "numeric/kernels/vector.glsl"
+    const Probe* fine;
+    size_t layer;
+    const std::vector<Part>*across, *down;
+    const std::vector<double>* weights_sr;  // row by row
+
+    int x(int column) const { return (*across)[static_cast<size_t>(column)].texel; }
+    int y(int row) const { return (*down)[static_cast<size_t>(row)].texel; }
+    real partWeight_sr(int column, int row) const {
+        return T((*weights_sr)[static_cast<size_t>(row) * across->size() + static_cast<size_t>(column)]);
+    }
+    boolean partIsValid(int column, int row) const {
+        return fine->valid.empty() || fine->valid[layer].at(x(column), y(row)) != 0;
+    }
+    vec3 partRadiance(int column, int row) const {
+        const auto channel = [&](int c) {
+            return T(static_cast<double>(fine->radiance[layer].at(x(column), y(row), c)));
+        };
+        return {channel(0), channel(1), channel(2)};
+    }
+#include "probes/kernels/mip.glsl"
+};
+
 Probe halved(const Probe& fine, int threads) {
     Probe coarse;
     coarse.shape = fine.shape;
@@ -83,24 +111,13 @@ Probe halved(const Probe& fine, int threads) {
             for (const Part& row : rows[y])
                 for (const Part& column : across) weights.push_back(rectangles.solidAngle_sr(column, row));
             for (size_t layer = 0; layer < coarse.radiance.size(); layer++) {
-                double all_sr = 0, shown_sr = 0, sum[3] = {};
-                size_t k = 0;
-                for (const Part& row : rows[y])
-                    for (const Part& column : across) {
-                        const double weight_sr = weights[k++];
-                        all_sr += weight_sr;
-                        if (!fine.valid.empty() && fine.valid[layer].at(column.texel, row.texel) == 0)
-                            continue;
-                        shown_sr += weight_sr;
-                        for (int c = 0; c < 3; c++)
-                            sum[c] += weight_sr * static_cast<double>(
-                                                      fine.radiance[layer].at(column.texel, row.texel, c));
-                    }
-                const bool isValid = shown_sr >= 0.5 * all_sr;
+                MipKernel<double> kernel{&fine, layer, &across, &rows[y], &weights};
+                const auto texel =
+                    kernel.meanOfParts(static_cast<int>(across.size()), static_cast<int>(rows[y].size()));
                 for (int c = 0; c < 3; c++)
-                    coarse.radiance[layer].at(x, static_cast<int>(y), c) =
-                        isValid ? static_cast<float>(sum[c] / shown_sr) : 0.0f;
-                if (!fine.valid.empty()) coarse.valid[layer].at(x, static_cast<int>(y)) = isValid ? 1 : 0;
+                    coarse.radiance[layer].at(x, static_cast<int>(y), c) = static_cast<float>(texel.rgb[c]);
+                if (!fine.valid.empty())
+                    coarse.valid[layer].at(x, static_cast<int>(y)) = texel.isValid ? 1 : 0;
             }
         }
     });

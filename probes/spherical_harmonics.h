@@ -71,8 +71,9 @@ struct HarmonicConstants {
 };
 const HarmonicConstants& harmonicConstants();
 
-// The texts over T: findHarmonics(d, degree), after which harmonicValue(i) is y_i(d), and
-// sumOfHarmonics(d, degree) of the coefficients that setCoefficients() took.
+// The texts over T: findHarmonics(d, degree), after which harmonicValue(i) is y_i(d),
+// sumOfHarmonics(d, degree) of the coefficients that setCoefficients() took, and projectTexels(first, end, parts,
+// degree) of the texels of `row` into projectedSums.
 template <class T>
 struct HarmonicsKernel {
 #include "numeric/kernel_scope.inc"
@@ -98,9 +99,24 @@ struct HarmonicsKernel {
     real harmonicValue(int i) const { return values_[static_cast<size_t>(i)]; }
     void setHarmonicValue(int i, real value) { values_[static_cast<size_t>(i)] = value; }
 
+    const TexelRow* row = nullptr;
+    vec3* projectedSums = nullptr;
+    // Of texel x and the ones behind it in lanes.
+    vec3 texelDirection(int x) const { return texelVector(row->direction, x); }
+    vec3 texelRadiance(int x) const { return texelVector(row->radiance, x); }
+    real texelWeight(int x) const { return Number<T>::load(row->weight.data() + x); }
+    vec3 projectedSum(int i) const { return projectedSums[i]; }
+    void setProjectedSum(int i, const vec3& sum) { projectedSums[i] = sum; }
+
 #include "probes/kernels/harmonics.glsl"
 
   private:
+    template <class S>
+    static vec3 texelVector(const std::array<std::vector<S>, 3>& of, int x) {
+        return {Number<T>::load(of[0].data() + x), Number<T>::load(of[1].data() + x),
+                Number<T>::load(of[2].data() + x)};
+    }
+
     std::array<T, kMaxHarmonicCount> rise_, fall_, values_;
     std::array<vec3, kMaxHarmonicCount> coefficients_;
 };

@@ -65,10 +65,24 @@ class EnergyTable {
     std::vector<double> bandStart_;                      // [band][x]: those above the band
 };
 
-// The texts over T: boxSum.
+// What summed_area.glsl sums, and the text, over T: the rows, or columns, of a table from the one numbered `first` on, in
+// lanes.
 template <class T>
 struct SummedAreaKernel {
 #include "numeric/kernel_scope.inc"
+    Image<double>* table = nullptr;
+    bool sumsColumns = false;
+    int first = 0;
+
+    double& at(int i, int line) const { return sumsColumns ? table->at(line, i) : table->at(i, line); }
+    int last() const { return (sumsColumns ? table->width() : table->height()) - 1; }
+    real tableNumber(int i) const {
+        return Number<T>::generate([&](int lane) { return at(i, std::min(first + lane, last())); });
+    }
+    void setTableNumber(int i, real sum) const {
+        for (int lane = 0; lane < Number<T>::lanes && first + lane <= last(); lane++)
+            at(i, first + lane) = numberLane(sum, lane);
+    }
 #include "probes/kernels/summed_area.glsl"
 };
 
@@ -99,32 +113,14 @@ template <class T>
 Image<double> summedArea(const Image<double>& values, int threads) {
     ETALON_CHECK(values.channels() == 1, "{} channels", values.channels());
     constexpr int kWidth = Number<T>::lanes;
-    const int width = values.width(), height = values.height();
-    Image<double> table(width, height);
-    // Lanes are rows.
-    parallelFor((static_cast<size_t>(height) + kWidth - 1) / kWidth, threads, [&](size_t group) {
-        const int first = static_cast<int>(group) * kWidth;
-        T sum(0.0);
-        for (int x = 0; x < width; x++) {
-            sum = sum + Number<T>::generate(
-                            [&](int lane) { return values.at(x, std::min(first + lane, height - 1)); });
-            for (int lane = 0; lane < kWidth && first + lane < height; lane++)
-                table.at(x, first + lane) = numberLane(sum, lane);
-        }
-    });
-    // Lanes are columns.
-    parallelFor((static_cast<size_t>(width) + kWidth - 1) / kWidth, threads, [&](size_t group) {
-        const int first = static_cast<int>(group) * kWidth;
-        T sum(0.0);
-        for (int y = 0; y < height; y++) {
-            const auto row = table.row(y);
-            sum = sum + Number<T>::generate([&](int lane) {
-                      return row[static_cast<size_t>(std::min(first + lane, width - 1))];
-                  });
-            for (int lane = 0; lane < kWidth && first + lane < width; lane++)
-                row[static_cast<size_t>(first + lane)] = numberLane(sum, lane);
-        }
-    });
+    Image<double> table = values;
+    for (const bool sumsColumns : {false, true}) {
+        const int lines = sumsColumns ? table.width() : table.height();
+        parallelFor((static_cast<size_t>(lines) + kWidth - 1) / kWidth, threads, [&](size_t group) {
+            SummedAreaKernel<T> kernel{&table, sumsColumns, static_cast<int>(group) * kWidth};
+            kernel.sumAlong(sumsColumns ? table.height() : table.width());
+        });
+    }
     return table;
 }
 
@@ -141,7 +137,7 @@ Image<double> boxSums(const Image<double>& table, int width, int height, int thr
     Image<double> sums(table.width() - width + 1, table.height() - height + 1);
     parallelFor(static_cast<size_t>(sums.height()), threads, [&](size_t row) {
         const int y = static_cast<int>(row);
-        Kernel kernel;
+        Kernel kernel{};
         forEachLaneGroup<kWidth>(static_cast<size_t>(sums.width()), [&](size_t first, int active) {
             const auto entry = [&](int dx, int dy) {
                 return Number<T>::generate([&](int lane) {

@@ -23,7 +23,8 @@ struct Profile {
     DepthRounding depthRounding = DepthRounding::exact;
     int subpixelBits = 8;
     int textureFractionBits = kExactFraction;
-    Filter textureFilter = Filter::bilinear;  // of float textures
+    Filter textureFilter = Filter::bilinear;    // of float textures
+    Arithmetic environment = Arithmetic::fp64;  // of what is made of an environment to light surfaces with
 };
 
 // How float textures are sampled.

@@ -18,9 +18,9 @@ void read(const TableReader& reader, std::string_view key, int lo, int hi, int& 
     if (reader.has(key)) value = static_cast<int>(reader.integer(key, lo, hi));
 }
 
-// A table of a format's fields; what it leaves out is as in `format`.
-Format readFormat(const std::string& file, const TomlValue& value, Format format) {
-    const TableReader reader(file, value, "[fragment]",
+// The table `key` of a format's fields; what it leaves out is as in `format`.
+Format readFormat(const std::string& file, std::string_view key, const TomlValue& value, Format format) {
+    const TableReader reader(file, value, formatText("[{}]", key),
                              {"format", "significand_bits", "min_exponent", "max_exponent", "rounding",
                               "subnormals", "overflow", "division", "power", "seed"});
     if (reader.has("format")) {
@@ -47,21 +47,22 @@ Format readFormat(const std::string& file, const TomlValue& value, Format format
                        formatText("must be at least {} for {} significand bits, not {}",
                                   format.significandBits - 1, format.significandBits, format.maxExponent));
     if (!isSupported(format))
-        reader.fail(reader.line(),
-                    "the format in [fragment] cannot be emulated: " + arithmeticName(Arithmetic(format)));
+        reader.fail(reader.line(), formatText("the format in [{}] cannot be emulated: {}", key,
+                                              arithmeticName(Arithmetic(format))));
     return format;
 }
 
-// The name of an arithmetic, or a table.
-Arithmetic readFragment(const TableReader& reader, const Arithmetic& base) {
-    const TomlValue& value = reader.value("fragment");
+// The name of an arithmetic, or a table; `base` if the key is not there.
+Arithmetic readArithmetic(const TableReader& reader, std::string_view key, const Arithmetic& base) {
+    if (!reader.has(key)) return base;
+    const TomlValue& value = reader.value(key);
     if (value.kind == TomlKind::table)
-        return Arithmetic(readFormat(reader.file(), value, base.format.value_or(kFp32)));
+        return Arithmetic(readFormat(reader.file(), key, value, base.format.value_or(kFp32)));
     if (value.kind != TomlKind::string)
-        reader.failKey("fragment", "must be the name of an arithmetic or a table of a format's fields");
+        reader.failKey(key, "must be the name of an arithmetic or a table of a format's fields");
     std::vector<std::string_view> names = {"truth", "fp64"};
     for (const NamedFormat& named : namedFormats()) names.push_back(named.name);
-    const std::string given = reader.choice("fragment", names);
+    const std::string given = reader.choice(key, names);
     if (given == "truth") return Arithmetic::truth;
     if (given == "fp64") return Arithmetic::fp64;
     if (given == "fp32") return Arithmetic::fp32;
@@ -79,12 +80,12 @@ Profile readProfileFile(const std::filesystem::path& path) {
     const std::string file = path.string();
     const TableReader reader(file, document, "the profile",
                              {"base", "fragment", "vertex", "depth", "depth_rounding", "subpixel_bits",
-                              "texture_fraction_bits", "texture_filter"});
+                              "texture_fraction_bits", "texture_filter", "environment"});
     const std::string base = reader.has("base") ? reader.choice("base", profileNames()) : "f32";
     Profile profile = *findProfile(base);
     profile.name = path.filename().string();
     profile.meaning = formatText("composed in a file from {}", base);
-    if (reader.has("fragment")) profile.fragment = readFragment(reader, profile.fragment);
+    profile.fragment = readArithmetic(reader, "fragment", profile.fragment);
     read(reader, "vertex", profile.vertex);
     read(reader, "depth", profile.depth);
     read(reader, "depth_rounding", profile.depthRounding);
@@ -99,6 +100,7 @@ Profile readProfileFile(const std::filesystem::path& path) {
         }
     }
     read(reader, "texture_filter", profile.textureFilter);
+    profile.environment = readArithmetic(reader, "environment", profile.environment);
     return profile;
 }
 

@@ -36,6 +36,7 @@ constexpr Note kNotes[] = {
     {"d3d11", "subpixel_bits", "8 [D3D11.3]", ""},
     {"d3d11", "texture_fraction_bits", "at least 8 [D3D11.3, sec. 7.18]", ""},
     {"d3d11", "texture_filter", "", "float textures are filtered"},
+    {"d3d11", "environment", "", "made beforehand, by a host in double"},
 
     {"vulkan-min", "fragment", "32 bits [VulkanSpec]",
      "nearest-even, subnormals kept, exact quotients and powers, where more error is allowed"},
@@ -46,6 +47,7 @@ constexpr Note kNotes[] = {
     {"vulkan-min", "texture_fraction_bits",
      "the least subTexelPrecisionBits [VulkanSpec, \"Required Limits\"]", ""},
     {"vulkan-min", "texture_filter", "", "float textures are filtered"},
+    {"vulkan-min", "environment", "", "made beforehand, by a host in double"},
 
     {"nv40-fp32", "fragment.significand_bits", "23 fraction bits [Kilgariff2005]", ""},
     {"nv40-fp32", "fragment.min_exponent", "8 exponent bits [Kilgariff2005]", ""},
@@ -61,6 +63,7 @@ constexpr Note kNotes[] = {
     {"nv40-fp32", "subpixel_bits", "", "8"},
     {"nv40-fp32", "texture_fraction_bits", "", "8"},
     {"nv40-fp32", "texture_filter", "fp16 textures are filtered, not fp32 [Kilgariff2005]", ""},
+    {"nv40-fp32", "environment", "", "made beforehand, by a host in double"},
 
     {"nv40-fp16", "fragment.significand_bits", "10 fraction bits [Kilgariff2005]", ""},
     {"nv40-fp16", "fragment.min_exponent", "5 exponent bits [Kilgariff2005]", ""},
@@ -76,6 +79,7 @@ constexpr Note kNotes[] = {
     {"nv40-fp16", "subpixel_bits", "", "8"},
     {"nv40-fp16", "texture_fraction_bits", "", "8"},
     {"nv40-fp16", "texture_filter", "fp16 textures are filtered [Kilgariff2005]", ""},
+    {"nv40-fp16", "environment", "", "made beforehand, by a host in double"},
 
     {"r300-fp24", "fragment.significand_bits", "16 fraction bits, by a single source", ""},
     {"r300-fp24", "fragment.min_exponent", "7 exponent bits, by a single source",
@@ -94,6 +98,7 @@ constexpr Note kNotes[] = {
     {"r300-fp24", "subpixel_bits", "", "8"},
     {"r300-fp24", "texture_fraction_bits", "", "8"},
     {"r300-fp24", "texture_filter", "float textures are not filtered, by a single source", ""},
+    {"r300-fp24", "environment", "", "made beforehand, by a host in double"},
 };
 
 // The longest key that fits; null if none does.
@@ -111,7 +116,7 @@ const Note* noteOf(std::string_view profile, std::string_view key) {
 
 std::vector<ProfileField> profileFields(const Profile& profile) {
     std::vector<ProfileField> fields;
-    const auto add = [&](const char* key, std::string value, bool isNumber = false) {
+    const auto add = [&](const std::string& key, std::string value, bool isNumber = false) {
         ProfileField field{key, std::move(value), isNumber, "", ""};
         if (const Note* note = noteOf(profile.name, key)) {
             field.documented = note->documented;
@@ -119,22 +124,24 @@ std::vector<ProfileField> profileFields(const Profile& profile) {
         }
         fields.push_back(std::move(field));
     };
-    const auto addNumber = [&](const char* key, auto value) { add(key, formatText("{}", value), true); };
-    const auto addName = [&](const char* key, auto value) { add(key, std::string(nameOf(value))); };
-    if (!profile.fragment.format) {
-        add("fragment", arithmeticName(profile.fragment));
-    } else {
-        const Format& f = *profile.fragment.format;
-        addNumber("fragment.significand_bits", f.significandBits);
-        addNumber("fragment.min_exponent", f.minExponent);
-        addNumber("fragment.max_exponent", f.maxExponent);
-        addName("fragment.rounding", f.rounding);
-        addName("fragment.subnormals", f.subnormals);
-        addName("fragment.overflow", f.overflow);
-        addName("fragment.division", f.division);
-        addName("fragment.power", f.power);
-        if (f.rounding == Rounding::stochastic) addNumber("fragment.seed", f.seed);
-    }
+    const auto addNumber = [&](const std::string& key, auto value) {
+        add(key, formatText("{}", value), true);
+    };
+    const auto addName = [&](const std::string& key, auto value) { add(key, std::string(nameOf(value))); };
+    const auto addArithmetic = [&](const std::string& key, const Arithmetic& arithmetic) {
+        if (!arithmetic.format) return add(key, arithmeticName(arithmetic));
+        const Format& f = *arithmetic.format;
+        addNumber(key + ".significand_bits", f.significandBits);
+        addNumber(key + ".min_exponent", f.minExponent);
+        addNumber(key + ".max_exponent", f.maxExponent);
+        addName(key + ".rounding", f.rounding);
+        addName(key + ".subnormals", f.subnormals);
+        addName(key + ".overflow", f.overflow);
+        addName(key + ".division", f.division);
+        addName(key + ".power", f.power);
+        if (f.rounding == Rounding::stochastic) addNumber(key + ".seed", f.seed);
+    };
+    addArithmetic("fragment", profile.fragment);
     addName("vertex", profile.vertex);
     addName("depth", profile.depth);
     addName("depth_rounding", profile.depthRounding);
@@ -144,6 +151,7 @@ std::vector<ProfileField> profileFields(const Profile& profile) {
     else
         addNumber("texture_fraction_bits", profile.textureFractionBits);
     addName("texture_filter", profile.textureFilter);
+    addArithmetic("environment", profile.environment);
     return fields;
 }
 

@@ -5,8 +5,7 @@
 // needs: raster/kernels/sampler.glsl
 // needs: raster/kernels/cube_face.glsl
 
-// Of each texel three numbers of its direction, three of its flux.
-layout(std430, set = 3, binding = 0) readonly buffer EnvironmentTexels { real environmentTexels[]; };
+// Texels are the sources of probes/kernels/irradiance_scope.glsl.
 layout(set = 3, binding = 1) uniform sampler2DArray irradianceMap;
 layout(std140, set = 3, binding = 2) uniform EnvironmentSettings {
     int environmentLightKind;
@@ -17,10 +16,4 @@ layout(std140, set = 3, binding = 2) uniform EnvironmentSettings {
 int environmentKind() { return environmentLightKind; }
 int environmentDegree() { return environmentLightDegree; }
 int texelLightCount() { return environmentTexelCount; }
-vec3 texelLightDirection(int i) {
-    return vec3(environmentTexels[6 * i], environmentTexels[6 * i + 1], environmentTexels[6 * i + 2]);
-}
-vec3 texelLightFlux(int i) {
-    return vec3(environmentTexels[6 * i + 3], environmentTexels[6 * i + 4], environmentTexels[6 * i + 5]);
-}
 vec3 mapAlong(vec3 direction) { return sampleCubeRgb(irradianceMap, direction, irradianceMapSampling); }

@@ -11,6 +11,8 @@
 // needs: probes/kernels/flux_scope.glsl
 // needs: probes/kernels/flux.glsl
 // needs: probes/kernels/irradiance.glsl
+// needs: probes/kernels/irradiance_scope.glsl
+// needs: probes/kernels/irradiance_sums.glsl
 // needs: probes/kernels/harmonics_scope.glsl
 // needs: probes/kernels/harmonics.glsl
 // needs: lighting/kernels/checker.glsl

@@ -39,3 +39,16 @@ vec3 sumOfHarmonics(vec3 d, int degree) {
     for (int i = 1; i < count; i++) sum = add3(sum, scale3(harmonicCoefficient(i), harmonicValue(i)));
     return sum;
 }
+
+// Sets projectedSum(i) to the sum of flux times harmonic i over every `parts`-th texel of a row, from `first` on, in
+// order from 0.
+void projectTexels(int first, int end, int parts, int degree) {
+    int count = (degree + 1) * (degree + 1);
+    for (int i = 0; i < count; i++) setProjectedSum(i, vec3(real(0.0), real(0.0), real(0.0)));
+    for (int x = first; x < end; x += parts) {
+        vec3 flux = texelFlux(texelRadiance(x), texelWeight(x));
+        findHarmonics(texelDirection(x), degree);
+        for (int i = 0; i < count; i++)
+            setProjectedSum(i, add3(projectedSum(i), scale3(flux, harmonicValue(i))));
+    }
+}

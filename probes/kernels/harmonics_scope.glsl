@@ -11,3 +11,13 @@ vec3 harmonicCoefficient(int i) {
 }
 real harmonicValue(int i) { return harmonicValues[i]; }
 void setHarmonicValue(int i, real value) { harmonicValues[i] = value; }
+
+// One row of texels, seven numbers each: direction, weight and radiance. An invocation is one of the partial sums.
+layout(std430, set = 1, binding = 6) readonly buffer RowTexels { real rowTexels[]; };
+vec3 projectedSums[121];
+vec3 rowVector(int i) { return vec3(rowTexels[i], rowTexels[i + 1], rowTexels[i + 2]); }
+vec3 texelDirection(int x) { return rowVector(7 * x); }
+real texelWeight(int x) { return rowTexels[7 * x + 3]; }
+vec3 texelRadiance(int x) { return rowVector(7 * x + 4); }
+vec3 projectedSum(int i) { return projectedSums[i]; }
+void setProjectedSum(int i, vec3 sum) { projectedSums[i] = sum; }

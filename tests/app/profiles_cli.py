@@ -71,7 +71,7 @@ class Profiles(CliCase):
             self.assertIn(f"# {profile['name']}: {profile['meaning']}\n", text)
             keys = [field["key"] for field in profile["fields"]]
             for key in ("vertex", "depth", "depth_rounding", "subpixel_bits", "texture_fraction_bits",
-                        "texture_filter"):
+                        "texture_filter", "environment"):
                 self.assertIn(key, keys)
         old = next(profile for profile in report if profile["name"] == "r300-fp24")
         fields = {field["key"]: field for field in old["fields"]}
@@ -113,6 +113,26 @@ class Profiles(CliCase):
         self.render("b.exr", "--profile", "once.toml")
         self.differ("a.exr", "b.exr")
 
+    def test_the_light_of_an_environment_has_an_arithmetic_of_its_own(self):
+        (self.folder / "sky.pfm").write_bytes(pfm(16, 8, [i % 7 + 0.3 for i in range(3 * 16 * 8)]))
+        self.write("half.toml", 'environment = "fp16"\n')
+        self.write("same.toml", 'environment = "fp64"\n')
+        for lighting in ("harmonics", "map", "exact", "lights", "blurred"):
+            sky = f'[environment]\nfile = "sky.pfm"\nlighting = "{lighting}"\n'
+            if lighting in ("map", "blurred"):
+                sky += "map_size = 8\n"
+            scene = self.write("sky.toml", SCENE.format(render="") + sky)
+            with self.subTest(lighting=lighting):
+                for image, profile in (("a.exr", "f32"), ("b.exr", "half.toml"), ("c.exr", "same.toml")):
+                    self.expect(0, "render", scene, "-o", image, "--profile", profile)
+                self.differ("a.exr", "b.exr")
+                self.same("a.exr", "c.exr")
+                for profile, arithmetic in (("f32", "fp64"), ("half.toml", "fp16")):
+                    plan = json.loads(self.expect(0, "plan", scene, "--json", "--profile", profile).stdout)
+                    light = next(one for one in plan["passes"] if one["name"] == "environment light")
+                    self.assertTrue(light["runs"])
+                    self.assertEqual(light["arithmetic"], arithmetic)
+
     def test_stochastic_rounding_is_the_same_for_threads_tiles_and_levels(self):
         self.write("draw.toml", '[fragment]\nformat = "fp16"\nrounding = "stochastic"\nseed = 5\n')
         self.write("other.toml", '[fragment]\nformat = "fp16"\nrounding = "stochastic"\nseed = 6\n')
@@ -131,6 +151,8 @@ class Profiles(CliCase):
                               ("subpixels = 4", "own.toml:1: unknown key 'subpixels'"),
                               ("[fragment]\nsignificand_bits = 53", "own.toml:2: 'significand_bits' in [fragment]"),
                               ("[fragment]\nmax_exponent = 3", "own.toml:2: 'max_exponent' in [fragment]"),
+                              ('environment = "fp17"', "own.toml:1: 'environment'"),
+                              ("[environment]\nrounding = 1", "own.toml:2: 'rounding' in [environment]"),
                               ("base", "own.toml:1: not valid TOML")):
             with self.subTest(text=text):
                 self.write("own.toml", text + "\n")

@@ -2,10 +2,15 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "lighting/environment_lighting.h"
+#include "probes/convert.h"
+#include "probes/harmonics_lobes.h"
+#include "probes/irradiance.h"
 #include "probes/latlong.h"
+#include "probes/median_cut.h"
 
 using namespace etalon;
 
@@ -74,6 +79,65 @@ TEST_CASE("EveryLightOfTheEnvironmentGivesTheIrradianceOfASlope") {
             for (int c = 0; c < 3; c++)
                 CHECK(irradianceOf(scene, n)[c] ==
                       doctest::Approx((c + 1) * (kPi - kPi / 3 * n.z)).epsilon(bound));
+    }
+}
+
+// What the pass makes is what the probes' own functions make in the arithmetic, and not what they make in double.
+TEST_CASE("EnvironmentLightIsMadeInTheProfilesArithmetic") {
+    constexpr int kMapSize = 8;
+    SurfaceScene scene = sceneUnderSlope(32);
+    // Not turned: its own axes are the world's.
+    scene.environment.cosRotation = 1;
+    scene.environment.sinRotation = 0;
+    Probe probe;
+    probe.shape = {Mapping::latLong, 32, 16};
+    probe.radiance.push_back(scene.environment.latLong);
+    const ProbeShape cube{Mapping::cube, kMapSize, kMapSize};
+    const auto made = [&](EnvironmentLightMethod method, const Arithmetic& arithmetic) {
+        Environment environment = environmentOf(method);
+        environment.mapSize = kMapSize;
+        environment.lightCount = 16;
+        Profile profile = *findProfile("f32");
+        profile.environment = arithmetic;
+        return environmentIllumination(environment, scene.environment, profile, 1);
+    };
+    const auto isMap = [](const CubeMap<float>& map, const Probe& expected, double factor) {
+        for (size_t f = 0; f < map.faces.size(); f++)
+            for (size_t i = 0; i < map.faces[f].values().size(); i++)
+                if (map.faces[f].values()[i] != static_cast<float>(expected.radiance[f].values()[i] * factor))
+                    return false;
+        return true;
+    };
+    for (const Arithmetic& arithmetic : {Arithmetic::fp32, Arithmetic::fp16, Arithmetic::fp24R300}) {
+        CAPTURE(arithmeticName(arithmetic));
+        const auto is = [&](EnvironmentLightMethod method, auto&& expected) {
+            CHECK(expected(made(method, arithmetic)));
+            CHECK_FALSE(expected(made(method, Arithmetic::fp64)));
+        };
+        is(EnvironmentLightMethod::harmonics, [&](const EnvironmentIllumination& of) {
+            return of.diffuse.harmonics.coefficients ==
+                   irradianceOfHarmonics(projectHarmonics(probe, 2, arithmetic)).coefficients;
+        });
+        is(EnvironmentLightMethod::exact, [&](const EnvironmentIllumination& of) {
+            const TexelLights texels = texelLights(probe, arithmetic);
+            return of.diffuse.directions == texels.directions && of.diffuse.flux == texels.flux;
+        });
+        is(EnvironmentLightMethod::map, [&](const EnvironmentIllumination& of) {
+            return isMap(of.diffuse.map, irradianceProbe(probe, cube, arithmetic), 1);
+        });
+        is(EnvironmentLightMethod::blurred, [&](const EnvironmentIllumination& of) {
+            const Probe reflective =
+                convertProbe(probe, {.shape = cube, .resampling = Resampling::area}, arithmetic);
+            return isMap(of.diffuse.map,
+                         blurredDiffuseMap(reflective, kMapSize, kMapSize / 2.0, Arithmetic::fp32),
+                         3.14159265358979323846);
+        });
+        is(EnvironmentLightMethod::lights, [&](const EnvironmentIllumination& of) {
+            const auto expected = medianCutLights(probe, {.log2Count = 4}, arithmetic).lights;
+            return std::ranges::equal(of.lights, expected, [](const ProbeLight& a, const ProbeLight& b) {
+                return a.direction == b.direction && a.energy == b.energy;
+            });
+        });
     }
 }
 

@@ -188,6 +188,30 @@ TEST_CASE("ExtremeProbesHaveFiniteIrradiance") {
           1e-14);
 }
 
+// The lights of texels are what the sum adds: one texel at a time it is their product with the cosine.
+TEST_CASE("TexelLightsAreWhatTheSumAdds") {
+    const ProbeShape shape{Mapping::cube, 3, 3};
+    const std::vector<glm::dvec3> axis = {{0, 0, 1}};
+    for (const Arithmetic& arithmetic :
+         {Arithmetic::fp64, Arithmetic::fp32, Arithmetic::fp16, Arithmetic::fp24R300, Arithmetic::truth}) {
+        const TexelLights white = texelLights(constantProbe(shape, 1), arithmetic, 2);
+        REQUIRE(white.directions.size() == 54);
+        REQUIRE(white.flux.size() == 54);
+        for (size_t lit = 0; lit < 54; lit++) {
+            Probe probe = constantProbe(shape, 0);
+            for (int c = 0; c < 3; c++) probe.radiance[lit / 9].plane(c)[lit % 9] = 1;
+            const TexelLights texels = texelLights(probe, arithmetic);
+            for (size_t i = 0; i < 54; i++) {
+                CHECK(texels.directions[i] == white.directions[i]);
+                CHECK(texels.flux[i] == (i == lit ? white.flux[i] : glm::dvec3(0)));
+            }
+            const double sum = irradianceAt(probe, axis, arithmetic)[0].x;
+            const double product = white.flux[lit].x * std::max(0.0, white.directions[lit].z);
+            CHECK(std::abs(sum - product) <= 0x1p-10 * product);
+        }
+    }
+}
+
 TEST_CASE("BlurredMapOfAConstantIsTheConstant") {
     const Probe map = blurredDiffuseMap(constantProbe({Mapping::cube, 8, 8}, 3), 5, 2.5, Arithmetic::fp32);
     for (const Image<float>& face : map.radiance)

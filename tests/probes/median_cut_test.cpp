@@ -6,9 +6,11 @@
 #include <limits>
 #include <set>
 
+#include "numeric/door.h"
 #include "numeric/rounded.h"
 #include "numeric/truth.h"
 #include "probes/latlong.h"
+#include "probes/light_passes.h"
 #include "probes/summed_area.h"
 #include "tests/support/random_numbers.h"
 
@@ -327,6 +329,30 @@ TEST_CASE("TablesOfAnyArithmeticCanBeCut") {
     REQUIRE(wide.size() == expected.size());
     for (size_t i = 0; i < wide.size(); i++) CHECK(wide[i] == expected[i].region);
     CHECK(regions(Rounded<kBf16>(0.0)) != wide);
+}
+
+TEST_CASE("MedianCutRunsInAnyArithmetic") {
+    const Probe probe = randomProbe(64, 32, 6);
+    const MedianCut cut{5};
+    const auto wide = medianCutLights(probe, cut, 1).lights;
+    const std::vector<double> weights = texelWeights(64, 32, cut.weight);
+    const auto difference = [&](const Arithmetic& arithmetic) {
+        const auto lights = medianCutLights(probe, cut, arithmetic, 2).lights;
+        REQUIRE(lights.size() == wide.size());
+        double largest = 0.0;
+        for (size_t i = 0; i < lights.size(); i++) {
+            const RegionSums sums = passesIn<LightPasses>(arithmetic)
+                                        ->regionSums(probe.radiance[0], lights[i].region, weights.data());
+            CHECK(lights[i].energy == sums.energy);
+            largest = std::max(largest, std::abs(energyOf(lights[i].energy) / energyOf(wide[i].energy) - 1));
+        }
+        return largest;
+    };
+    CHECK(difference(Arithmetic::fp64) == 0.0);
+    // The energies are sums of up to 64 x 32 / 32 texels: no digits are lost to the table where the cuts agree.
+    CHECK(difference(Arithmetic::truth) <= 1e-14);
+    CHECK(difference(Arithmetic::fp16) > 1e-4);
+    CHECK(difference(Arithmetic::fp16) < 1.0);
 }
 
 TEST_CASE("LightsDependOnNoThreads") {

@@ -98,10 +98,35 @@ TEST_CASE_TEMPLATE("EnergySumsInOtherLanesGiveTheSameBits", N, std::integral_con
     bandOfTable<N::value>(image, 0, 45, weights.data(), lanes.data());
     CHECK(lanes == scalar);
     for (const TexelRegion& r : {TexelRegion{0, 0, 61, 45}, {3, 2, 4, 3}, {1, 5, 12, 6}, {7, 0, 31, 44}}) {
-        const RegionSums a = regionSums<1>(image, r, weights.data()),
-                         b = regionSums<N::value>(image, r, weights.data());
+        const RegionSums a = regionSums<double>(image, r, weights.data()),
+                         b = regionSums<Lanes<double, N::value>>(image, r, weights.data());
         CHECK(a.energy == b.energy);
         CHECK(a.uncountedValues == b.uncountedValues);
+        const RegionSums narrow = regionSums<float>(image, r, weights.data()),
+                         wide = regionSums<Lanes<float, 2 * N::value>>(image, r, weights.data());
+        CHECK(narrow.energy == wide.energy);
+        CHECK(narrow.uncountedValues == a.uncountedValues);
+        CHECK(wide.uncountedValues == a.uncountedValues);
+        // Of energies that are not negative, each addition and product errs by 2^-24 at most.
+        for (int c = 0; c < 3; c++)
+            CHECK(std::abs(narrow.energy[c] - a.energy[c]) <=
+                  (r.width() / 8 + 1 + r.height() + 6) * 0x1p-24 * a.energy[c]);
+    }
+}
+
+// Radiance beyond the largest number of an arithmetic counts as that number.
+TEST_CASE("EnergiesInFewDigitsStayFinite") {
+    Image<float> image(3, 1, 3);
+    image.fill(1e5f);
+    image.at(2, 0, 1) = image.at(2, 0, 2) = 0.0f;
+    const double weight = 0x1p-2;
+    for (const Arithmetic& arithmetic : {Arithmetic::fp16, Arithmetic::fp16Nv40}) {
+        const auto passes = passesIn<LightPasses>(arithmetic);
+        const RegionSums sums = passes->regionSums(image, {0, 0, 2, 1}, &weight);
+        CHECK(sums.energy == glm::dvec3(2 * 65504 * weight));
+        CHECK(sums.uncountedValues == 0);
+        CHECK(passes->texelEnergies(image, &weight, 1).at(2, 0) ==
+              doctest::Approx(0.2125 * 65504 * weight).epsilon(0x1p-9));
     }
 }
 
@@ -115,10 +140,10 @@ TEST_CASE("EnergyTableTakesWhatIsNoRadianceAsBlack") {
     const std::vector<double> weights(3, 1.0);
     const EnergyTable table(image, weights, 1), expected(clean, weights, 1);
     CHECK(table.total() == expected.total());
-    const RegionSums sums = levelPasses<EnergyPasses>().regionSums(image, {0, 0, 17, 3}, weights.data());
+    const RegionSums sums = regionSums<double>(image, {0, 0, 17, 3}, weights.data());
     CHECK(sums.uncountedValues == 3);
     CHECK(sums.energy == glm::dvec3(102.0, 96.0, 102.0));
-    CHECK(levelPasses<EnergyPasses>().regionSums(image, {1, 0, 9, 3}, weights.data()).uncountedValues == 0);
+    CHECK(regionSums<double>(image, {1, 0, 9, 3}, weights.data()).uncountedValues == 0);
 }
 
 // The figures of probes/summed_area.h.

@@ -44,7 +44,8 @@ std::string refusal(const std::string& text) {
 bool sameChoices(const Profile& a, const Profile& b) {
     return a.fragment == b.fragment && a.vertex == b.vertex && a.depth == b.depth &&
            a.depthRounding == b.depthRounding && a.subpixelBits == b.subpixelBits &&
-           a.textureFractionBits == b.textureFractionBits && a.textureFilter == b.textureFilter;
+           a.textureFractionBits == b.textureFractionBits && a.textureFilter == b.textureFilter &&
+           a.environment == b.environment;
 }
 
 }  // namespace
@@ -58,6 +59,7 @@ depth_rounding = "driver"
 subpixel_bits = 5
 texture_fraction_bits = 3
 texture_filter = "nearest"
+environment = "fp16"
 [fragment]
 significand_bits = 12
 min_exponent = -20
@@ -86,6 +88,7 @@ seed = 99
     CHECK(profile.subpixelBits == 5);
     CHECK(profile.textureFractionBits == 3);
     CHECK(profile.textureFilter == Filter::nearest);
+    CHECK(profile.environment == Arithmetic::fp16);
     CHECK(composed("texture_fraction_bits = 'exact'\nbase = 'd3d11'").textureFractionBits == kExactFraction);
 }
 
@@ -101,6 +104,14 @@ TEST_CASE("WhatAProfileFileLeavesOutIsThatOfItsBase") {
     Format away = kFp32;
     away.rounding = Rounding::nearestAway;
     CHECK(composed("base = 'f64'\nfragment = {rounding = 'nearest-away'}").fragment == Arithmetic(away));
+    // That of environments is independent of it, and double unless it is named.
+    CHECK(composed("base = 'r300-fp24'").environment == Arithmetic::fp64);
+    CHECK(composed("fragment = 'fp16'").environment == Arithmetic::fp64);
+    Format cut = kFp16;
+    cut.rounding = Rounding::towardZero;
+    CHECK(composed("[environment]\nformat = 'fp16'\nrounding = 'toward-zero'").environment ==
+          Arithmetic(cut));
+    CHECK(composed("[environment]\nrounding = 'nearest-away'").environment == Arithmetic(away));
     // Names.
     CHECK(composed("fragment = 'fp32'").fragment == Arithmetic::fp32);
     CHECK(composed("fragment = 'fp64'").fragment == Arithmetic::fp64);
@@ -150,6 +161,10 @@ TEST_CASE("BadProfileFilesAreRefusedWithLineAndKey") {
     refuses("[fragment]\nrounding = 'stochastic'\nseed = -1", "3: 'seed'");
     refuses("[fragment]\nformat = 'fp64'", "2: 'format'");
     refuses("[[fragment]]\n", "1: 'fragment'");
+    refuses("\nenvironment = 'fp23'", "2: 'environment'", "fp24-r300");
+    refuses("environment = 16", "1: 'environment'", "a table");
+    refuses("[environment]\nbits = 3", "2: unknown key 'bits' in [environment]");
+    refuses("[environment]\nsignificand_bits = 25", "2: 'significand_bits' in [environment]", "[2, 24]");
     refuses("base = ", "1: not valid TOML");
     CHECK_THROWS_AS(loadProfile("none.toml"), InputError);
     CHECK_THROWS_AS(loadProfile("f31"), InputError);
@@ -168,6 +183,7 @@ TEST_CASE("TheTextOfAProfileIsAFileThatComposesIt") {
     format.seed = 12345678901234;
     format.power = Power::exp2log2;
     own.fragment = Arithmetic(format);
+    own.environment = Arithmetic(kFp24R300);
     own.depthRounding = DepthRounding::driver;
     CHECK(sameChoices(readProfileFile(written(folder, profileText(own))), own));
 }

@@ -57,7 +57,7 @@ inline const char* const kAllProfiles[] = {"f32",       "f64",       "truth",   
 // How far apart the numbers of a profile's images are from 1 on: those of its fragment format, or of float.
 inline double spacingOf(const char* profileName) {
     const Arithmetic& fragment = findProfile(profileName)->fragment;
-    return fragment.hasFormat() ? epsilonOf(fragment.format) : 0x1p-23;
+    return fragment.format ? epsilonOf(*fragment.format) : 0x1p-23;
 }
 
 }  // namespace etalon::test
