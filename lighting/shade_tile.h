@@ -33,6 +33,12 @@ class TileShaderOf final : public TileShader {
     using Triangles = TileTriangles<T>;
     using Weights = typename Triangles::Weights;
 
+    using Lighting = SurfaceLighting<T>;
+
+    // What of a material the wanted outputs show, and what that needs.
+    struct Parts : Lighting::SurfaceParts {
+        bool distance, needNormal, needEye, needPlace;
+    };
     // Fragments that are shaded by the same texts and constants: their numbers, ascending. An instance that
     // reflects the scene has buckets of its own, so that their order is that of the scene, whatever cube maps
     // the job has (fragmentPoints).
@@ -40,6 +46,7 @@ class TileShaderOf final : public TileShader {
         const SurfaceMaterial* material;
         const CubeMap<float>* cube;
         uint32_t mirror;  // the instance that reflects the scene, or kNoTriangle
+        Parts parts;
         typename K::Reflectances reflectances;
         std::vector<uint32_t> fragments;
         size_t number = 0;  // Group::number of the first one
@@ -52,8 +59,6 @@ class TileShaderOf final : public TileShader {
         // Whether the fragments are neighbours in memory.
         bool isRun() const { return fragments.back() - fragments.front() == fragments.size() - 1; }
     };
-    using Lighting = SurfaceLighting<T>;
-
     using Surroundings = typename Lighting::Surroundings;
     using Visibility = typename Lighting::VisibilityBuffer;
 
@@ -73,9 +78,6 @@ class TileShaderOf final : public TileShader {
     size_t bucketOf(const SurfaceMaterial& material, const CubeMap<float>* cube, uint32_t mirror);
     void sortIntoBuckets();
     Group groupOf(const Bucket& bucket, size_t first, int count) const;
-    struct Parts : Lighting::SurfaceParts {
-        bool distance, needNormal, needEye, needPlace;
-    };
     Parts partsOf(const SurfaceMaterial& material) const;
     static void setItems(const Group& group);
     Surface surfaceOf(const Group& group, bool needNormal, bool needPosition) const;
@@ -91,7 +93,7 @@ class TileShaderOf final : public TileShader {
     vec3 mirrored(const Bucket& bucket, const vec3& n, const vec3& toEye);
     static std::vector<bool> castsOf(const ShadeJob& job);
     static typename K::EnvironmentView environmentOf(const ShadeJob& job);
-    void put(ShadeOutput output, const Group& group, vec3 value);
+    void put(ShadeOutput output, const Group& group, const vec3& value);
     void resolve(ShadeOutput output, const PixelRectangle& rectangle, Image<float>& image);
     void copyFirstSample(ShadeOutput output, const PixelRectangle& rectangle, Image<float>& image);
     // The values of a channel, one per fragment.
@@ -131,7 +133,7 @@ TileShaderOf<T>::TileShaderOf(const ShadeJob& job)
       environment_(environmentOf(job)) {
     ambient_ = constant(job.scene->ambient);
     eye_ = constant(job.view->eye);
-    buckets_.push_back(Bucket{nullptr, nullptr, kNoTriangle, {}, {}, 0});
+    buckets_.push_back(Bucket{nullptr, nullptr, kNoTriangle, {}, {}, {}, 0});
     hasOcclusion_ = job.occlusion || (job.vertexRadiance &&
                                       std::ranges::any_of(*job.vertexRadiance, [](const VertexRadiance& of) {
                                           return !of.sides[0].open.empty();
@@ -219,7 +221,8 @@ size_t TileShaderOf<T>::bucketOf(const SurfaceMaterial& material, const CubeMap<
     size_t b = 1;
     while (b < buckets_.size() && !isOf(buckets_[b])) b++;
     if (b == buckets_.size())
-        buckets_.push_back(Bucket{&material, cube, mirror, Lighting::reflectancesOf(material), {}, 0});
+        buckets_.push_back(
+            Bucket{&material, cube, mirror, partsOf(material), Lighting::reflectancesOf(material), {}, 0});
     return b;
 }
 
@@ -415,12 +418,11 @@ void TileShaderOf<T>::shadeBackground(const Group& group) {
 
 template <class T>
 void TileShaderOf<T>::shadeSurface(const Bucket& bucket, const Group& group) {
-    const Parts parts = partsOf(*bucket.material);
+    const Parts& parts = bucket.parts;
     if (!(parts.ambient || parts.needNormal || parts.needEye)) return;
     shadeSurface(bucket, group, surfaceOf(group, parts.needNormal, parts.needEye || parts.needPlace), {});
 }
 
-// What of a material the wanted outputs show, and what that needs.
 template <class T>
 typename TileShaderOf<T>::Parts TileShaderOf<T>::partsOf(const SurfaceMaterial& material) const {
     const ShadeRequest& request = job_.request;
@@ -445,7 +447,7 @@ typename TileShaderOf<T>::Parts TileShaderOf<T>::partsOf(const SurfaceMaterial& 
 template <class T>
 void TileShaderOf<T>::shadeSurface(const Bucket& bucket, const Group& group, const Surface& interpolated,
                                    const Visibility& visibility) {
-    const Parts parts = partsOf(*bucket.material);
+    const Parts& parts = bucket.parts;
     const vec3 none = constant(glm::dvec3(0));
     const Weights& w = interpolated.w;
     typename K::SurfacePoint point{interpolated.position, interpolated.normal, none};
@@ -493,7 +495,7 @@ typename TileShaderOf<T>::vec3 TileShaderOf<T>::mirrored(const Bucket& bucket, c
 
 // Keeps the group's values if the output is wanted.
 template <class T>
-void TileShaderOf<T>::put(ShadeOutput output, const Group& group, vec3 v) {
+void TileShaderOf<T>::put(ShadeOutput output, const Group& group, const vec3& v) {
     if (!job_.request[output]) return;
     const auto active = static_cast<int>(group.fragments.size());
     for (int c = 0; c < 3; c++) {
