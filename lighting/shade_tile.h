@@ -35,6 +35,12 @@ class TileShaderOf final : public TileShader {
     using Triangles = TileTriangles<T>;
     using Weights = typename Triangles::Weights;
 
+    using Lighting = SurfaceLighting<T>;
+
+    // What of a material the wanted outputs show, and what that needs.
+    struct Parts : Lighting::SurfaceParts {
+        bool distance, seen, needNormal, needEye, needPlace;
+    };
     // Fragments that are shaded by the same texts and constants: their numbers, ascending. An instance that
     // reflects the scene has buckets of its own, so that their order is that of the scene, whatever cube maps
     // the job has (fragmentPoints).
@@ -42,6 +48,7 @@ class TileShaderOf final : public TileShader {
         const SurfaceMaterial* material;
         const CubeMap<float>* cube;
         uint32_t mirror;  // the instance that reflects the scene, or kNoTriangle
+        Parts parts;
         typename K::Reflectances reflectances;
         std::vector<uint32_t> fragments;
         size_t number = 0;  // Group::number of the first one
@@ -54,8 +61,6 @@ class TileShaderOf final : public TileShader {
         // Whether the fragments are neighbours in memory.
         bool isRun() const { return fragments.back() - fragments.front() == fragments.size() - 1; }
     };
-    using Lighting = SurfaceLighting<T>;
-
     using Surroundings = typename Lighting::Surroundings;
     using Visibility = typename Lighting::VisibilityBuffer;
 
@@ -75,9 +80,6 @@ class TileShaderOf final : public TileShader {
     size_t bucketOf(const SurfaceMaterial& material, const CubeMap<float>* cube, uint32_t mirror);
     void sortIntoBuckets();
     Group groupOf(const Bucket& bucket, size_t first, int count) const;
-    struct Parts : Lighting::SurfaceParts {
-        bool distance, seen, needNormal, needEye, needPlace;
-    };
     Parts partsOf(const SurfaceMaterial& material) const;
     static void setItems(const Group& group);
     Surface surfaceOf(const Group& group, bool needNormal, bool needPosition) const;
@@ -97,7 +99,7 @@ class TileShaderOf final : public TileShader {
     void putSeen(const Bucket& bucket, const Group& group, const Surface& surface,
                  const Visibility& visibility);
     Surroundings fragmentSurroundings(const Group& group) const;
-    void put(ShadeOutput output, const Group& group, vec3 value);
+    void put(ShadeOutput output, const Group& group, const vec3& value);
     void putNumber(Stored* to, const Group& group, const T& value);
     void resolve(ShadeOutput output, const PixelRectangle& rectangle, Image<float>& image);
     void copyFirstSample(ShadeOutput output, const PixelRectangle& rectangle, Image<float>& image);
@@ -141,7 +143,7 @@ TileShaderOf<T>::TileShaderOf(const ShadeJob& job)
     ambient_ = constant(job.scene->ambient);
     eye_ = constant(job.view->eye);
     forward_ = constant(job.view->forward);
-    buckets_.push_back(Bucket{nullptr, nullptr, kNoTriangle, {}, {}, 0});
+    buckets_.push_back(Bucket{nullptr, nullptr, kNoTriangle, {}, {}, {}, 0});
     hasOcclusion_ =
         job.vertexRadiance
             ? std::ranges::any_of(*job.vertexRadiance,
@@ -239,7 +241,8 @@ size_t TileShaderOf<T>::bucketOf(const SurfaceMaterial& material, const CubeMap<
     size_t b = 1;
     while (b < buckets_.size() && !isOf(buckets_[b])) b++;
     if (b == buckets_.size())
-        buckets_.push_back(Bucket{&material, cube, mirror, Lighting::reflectancesOf(material), {}, 0});
+        buckets_.push_back(
+            Bucket{&material, cube, mirror, partsOf(material), Lighting::reflectancesOf(material), {}, 0});
     return b;
 }
 
@@ -446,12 +449,11 @@ void TileShaderOf<T>::shadeBackground(const Group& group) {
 
 template <class T>
 void TileShaderOf<T>::shadeSurface(const Bucket& bucket, const Group& group) {
-    const Parts parts = partsOf(*bucket.material);
+    const Parts& parts = bucket.parts;
     if (!(parts.ambient || parts.needNormal || parts.needEye)) return;
     shadeSurface(bucket, group, surfaceOf(group, parts.needNormal, parts.needEye || parts.needPlace), {});
 }
 
-// What of a material the wanted outputs show, and what that needs.
 template <class T>
 typename TileShaderOf<T>::Parts TileShaderOf<T>::partsOf(const SurfaceMaterial& material) const {
     const ShadeRequest& request = job_.request;
@@ -478,7 +480,7 @@ typename TileShaderOf<T>::Parts TileShaderOf<T>::partsOf(const SurfaceMaterial& 
 template <class T>
 void TileShaderOf<T>::shadeSurface(const Bucket& bucket, const Group& group, const Surface& interpolated,
                                    const Visibility& visibility) {
-    const Parts parts = partsOf(*bucket.material);
+    const Parts& parts = bucket.parts;
     const vec3 none = constant(glm::dvec3(0));
     const Weights& w = interpolated.w;
     typename K::SurfacePoint point{interpolated.position, interpolated.normal, none};
@@ -568,7 +570,7 @@ void TileShaderOf<T>::putSeen(const Bucket& bucket, const Group& group, const Su
 
 // Keeps the group's values if the output is wanted.
 template <class T>
-void TileShaderOf<T>::put(ShadeOutput output, const Group& group, vec3 v) {
+void TileShaderOf<T>::put(ShadeOutput output, const Group& group, const vec3& v) {
     if (!job_.request[output]) return;
     for (int c = 0; c < 3; c++) putNumber(values(output, c), group, v[c]);
 }

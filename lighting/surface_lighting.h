@@ -14,8 +14,9 @@ template <class T>
 class SurfaceLighting {
   public:
     using K = ShadingKernels<T>;
-    using Reflectances = typename K::Reflectances;
-    using SurfacePoint = typename K::SurfacePoint;
+    // What the text takes and hands on is not copied.
+    using Reflectances = const typename K::Reflectances&;
+    using SurfacePoint = const typename K::SurfacePoint&;
     using Reflected = typename K::Reflected;
     using LightBuffer = typename K::LightBuffer;
     using VisibilityBuffer = typename K::VisibilityBuffer;
@@ -44,8 +45,8 @@ class SurfaceLighting {
     LightBuffer lights() const { return {lights_.data(), static_cast<int>(lights_.size())}; }
 
     static vec3 constant(const glm::dvec3& v) { return vec3(T(v.x), T(v.y), T(v.z)); }
-    static Reflectances reflectancesOf(const SurfaceMaterial& material) {
-        Reflectances r;
+    static typename K::Reflectances reflectancesOf(const SurfaceMaterial& material) {
+        typename K::Reflectances r;
         r.diffuse = constant(material.diffuse), r.diffuse2 = constant(material.diffuse2);
         r.perSquare = T(1.0 / material.checkerSize_m);
         r.hasChecker = material.checker ? 1 : 0;
@@ -56,7 +57,7 @@ class SurfaceLighting {
     }
 
     // What the text calls beside vectors: functions of texts of their own.
-    Reflected reflectedOfLights(bool diffuse, bool specular, const SurfacePoint& p, const Reflectances& r,
+    Reflected reflectedOfLights(bool diffuse, bool specular, SurfacePoint p, Reflectances r,
                                 const vec3& albedo, const LightBuffer& lights,
                                 const VisibilityBuffer& shadows) {
         if constexpr (Number<T>::isNative)
@@ -75,9 +76,8 @@ class SurfaceLighting {
     static constexpr double kEightPi = 25.132741228718345;
 
     // Constants stay in registers from light to light.
-    [[gnu::flatten, gnu::noinline]] Reflected reflectedFlattened(bool diffuse, bool specular,
-                                                                 const SurfacePoint& p, const Reflectances& r,
-                                                                 const vec3& albedo,
+    [[gnu::flatten, gnu::noinline]] Reflected reflectedFlattened(bool diffuse, bool specular, SurfacePoint p,
+                                                                 Reflectances r, const vec3& albedo,
                                                                  const LightBuffer& lights,
                                                                  const VisibilityBuffer& shadows) {
         return kernels_.reflectedOfLights(diffuse, specular, p, r, albedo, lights, shadows);

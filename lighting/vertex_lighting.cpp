@@ -54,7 +54,7 @@ void lightIn(const Profile& profile, const LightSources& sources, const SurfaceM
                 surroundings.bentNormal = vec3(bent(0), bent(1), bent(2));
                 for (int i = 0; i < active; i++) to.open[vertex(i)] = numberLane(surroundings.open, i);
             }
-            const typename Lighting::SurfacePoint point{
+            const typename Lighting::K::SurfacePoint point{
                 position, kernels.seenNormal(normal, T(side == 0 ? 1.0 : -1.0)), toEye};
             const auto reflected = lighting.reflectedLight(parts, point, reflectances, albedo, surroundings,
                                                            lighting.lights(), {});
