@@ -182,22 +182,36 @@ T ShadowTexels<T>::at(const Integer& layer, const Integer& x, const Integer& y) 
     return Number<T>::loadKept(texels.data());
 }
 
-// In double, in which unormDepth is exact.
+// In double, in which unormDepth is exact; a register of doubles at a time.
 template <class T>
 typename ShadowTexels<T>::Boolean ShadowTexels<T>::isBelowStored(const T& texel, const T& depth) const {
-    using Wide = std::conditional_t<N == 1, double, Lanes<double, N>>;
-    const auto wideOf = [](const T& a) {
-        if constexpr (N > 1 && Number<T>::isNative)
-            return convertLanes<double>(a);
-        else
-            return Number<Wide>::generate([&](int i) { return numberLane(a, i); });
+    const auto isBelow = [&](const auto& stored, const auto& z) {
+        using Wide = std::decay_t<decltype(z)>;
+        RasterKernels<Wide> kernels;
+        return stored < kernels.unormDepth(z, Wide(levels_));
     };
-    RasterKernels<Wide> kernels;
-    const auto isBelow = wideOf(texel) < kernels.unormDepth(wideOf(depth), Wide(levels_));
-    if constexpr (N == 1)
-        return isBelow;
-    else
-        return Boolean(__builtin_convertvector(isBelow.m, typename Boolean::Vector));
+    if constexpr (N == 1) {
+        return isBelow(numberLane(texel, 0), numberLane(depth, 0));
+    } else {
+        const auto lanesOf = [](const T& a) {
+            if constexpr (Number<T>::isNative)
+                return a;
+            else
+                return a.v;
+        };
+        const auto a = lanesOf(texel), b = lanesOf(depth);
+        if constexpr (std::is_same_v<Stored, double>) {
+            return Boolean(isBelow(a, b).m);
+        } else {
+            using Half = Lanes<int32_t, N / 2>;
+            const auto half = [&](const auto& stored, const auto& z) {
+                return Half(__builtin_convertvector(
+                    isBelow(convertLanes<double>(stored), convertLanes<double>(z)).m, typename Half::Vector));
+            };
+            return Boolean(
+                joinLanes(half(lowerLanes(a), lowerLanes(b)), half(upperLanes(a), upperLanes(b))).v);
+        }
+    }
 }
 
 }  // namespace etalon

@@ -21,7 +21,7 @@ class WindowLookup {
   public:
     using K = ShadowKernels<T>;
 
-    // The filter is pcf and not quantised. All three outlive the object.
+    // The filter is pcf and not quantised. buffers and space outlive the object.
     WindowLookup(const ShadowBuffers<T>& buffers, const typename K::ShadowSpace& space,
                  const typename K::PointFilter& settings, int threads);
 
@@ -89,7 +89,9 @@ class WindowLookup {
 
     const ShadowBuffers<T>& buffers_;
     const typename K::ShadowSpace& space_;
-    const typename K::PointFilter& settings_;
+    int taps_, fractionBits_;
+    T farthest_;  // what a reference is limited to
+    ptrdiff_t stride_;
     size_t blocksPerRow_;
     std::vector<Ranges> ranges_;          // of each layer
     WindowColumns columns_;               // 0, 1, 2 ...
@@ -100,7 +102,12 @@ class WindowLookup {
 template <class T>
 WindowLookup<T>::WindowLookup(const ShadowBuffers<T>& buffers, const typename K::ShadowSpace& space,
                               const typename K::PointFilter& settings, int threads)
-    : buffers_(buffers), space_(space), settings_(settings) {
+    : buffers_(buffers),
+      space_(space),
+      taps_(settings.taps),
+      fractionBits_(settings.fractionBits),
+      farthest_(settings.farthest),
+      stride_(buffers.texels.stride()) {
     const ShadowTexels<T>& texels = buffers.texels;
     blocksPerRow_ = static_cast<size_t>((texels.width() + 2 * texels.pad() + kBlock - 1) / kBlock);
     for (size_t layer = 0; layer < texels.layers(); layer++)
@@ -109,21 +116,20 @@ WindowLookup<T>::WindowLookup(const ShadowBuffers<T>& buffers, const typename K:
         columns_[part] = Number<T>::generate([&](int i) { return static_cast<double>(part * N) + i; });
     columnsOfTwoRows_ = Number<T>::generate([](int i) { return i % 8; });
     rowsOfTwoRows_ = Number<T>::generate([](int i) { return i / 8; });
-    for (int j = 0; j < std::min(settings_.taps, 8); j++)
-        window_ |= ((uint64_t{1} << settings_.taps) - 1) << (8 * j);
+    for (int j = 0; j < std::min(taps_, 8); j++) window_ |= ((uint64_t{1} << taps_) - 1) << (8 * j);
 }
 
 // Down the columns of a row of blocks first, then along it.
 template <class T>
 typename WindowLookup<T>::Ranges WindowLookup<T>::rangesOf(size_t layer, int threads) const {
     const ShadowTexels<T>& texels = buffers_.texels;
-    const int pad = texels.pad(), rows = texels.width() + 2 * pad, taps = settings_.taps;
+    const int pad = texels.pad(), rows = texels.width() + 2 * pad;
     Ranges ranges;
     ranges.nearest.resize(blocksPerRow_ * blocksPerRow_), ranges.farthest.resize(ranges.nearest.size());
     parallelFor(blocksPerRow_, threads, [&](size_t block) {
-        const int first = static_cast<int>(block) * kBlock, last = std::min(first + kBlock + taps, rows);
+        const int first = static_cast<int>(block) * kBlock, last = std::min(first + kBlock + taps_, rows);
         const auto rowOf = [&](int y) { return texels.row(layer, -pad, y - pad); };
-        std::vector<Stored> nearest(rowOf(first), rowOf(first) + texels.stride());
+        std::vector<Stored> nearest(rowOf(first), rowOf(first) + stride_);
         std::vector<Stored> farthest = nearest;
         for (int y = first + 1; y < last; y++) {
             const Stored* row = rowOf(y);
@@ -134,7 +140,7 @@ typename WindowLookup<T>::Ranges WindowLookup<T>::rangesOf(size_t layer, int thr
         }
         for (size_t b = 0; b < blocksPerRow_; b++) {
             const auto from = static_cast<ptrdiff_t>(b * kBlock),
-                       to = std::min<ptrdiff_t>(from + kBlock + taps, rows);
+                       to = std::min<ptrdiff_t>(from + kBlock + taps_, rows);
             ranges.nearest[block * blocksPerRow_ + b] =
                 *std::min_element(&nearest[from], &nearest[from] + (to - from));
             ranges.farthest[block * blocksPerRow_ + b] =
@@ -166,8 +172,8 @@ void WindowLookup<T>::place(const LitPoints& points, size_t first, size_t count,
         const vec3 position = load(points.position_m), normal = load(points.normal),
                    face = load(points.faceNormal);
         const typename K::ShadowPoint p = kernels.shadowPoint(space_, position, normal, face);
-        const typename K::TexelPair x = kernels.windowStart(p.u, settings_.taps, settings_.fractionBits);
-        const typename K::TexelPair y = kernels.windowStart(p.v, settings_.taps, settings_.fractionBits);
+        const typename K::TexelPair x = kernels.windowStart(p.u, taps_, fractionBits_);
+        const typename K::TexelPair y = kernels.windowStart(p.v, taps_, fractionBits_);
         const T centreU = kernels.firstCentre(p.u, x), centreV = kernels.firstCentre(p.v, y);
         const std::array<std::pair<const T*, Stored*>, 7> values = {{{&p.depth, places.depth.data()},
                                                                      {&p.perU, places.perU.data()},
@@ -185,7 +191,7 @@ void WindowLookup<T>::place(const LitPoints& points, size_t first, size_t count,
                                     texels.isDrawn(static_cast<size_t>(layer));
             places.layer[j] = isLookedUp ? layer : kNoLayer;
             // A window that is moved stays outside the layer.
-            const int last = texels.width() + texels.pad() - settings_.taps - 1;
+            const int last = texels.width() + texels.pad() - taps_ - 1;
             places.x[j] = std::clamp(integerLane(x.first, i), -texels.pad(), last);
             places.y[j] = std::clamp(integerLane(y.first, i), -texels.pad(), last);
         }
@@ -210,9 +216,8 @@ typename WindowLookup<T>::Decided WindowLookup<T>::decide(const Places& places, 
         return Number<T>::load(&from[offset], active);
     };
     const T depth = load(places.depth), perU = load(places.perU), perV = load(places.perV),
-            left = load(places.centreU), upper = load(places.centreV),
-            taps(static_cast<double>(settings_.taps)), right = left + taps, lower = upper + taps,
-            most = settings_.farthest;
+            left = load(places.centreU), upper = load(places.centreV), taps(static_cast<double>(taps_)),
+            right = left + taps, lower = upper + taps, most = farthest_;
     const T a = kernels.referenceDepth(depth, perU, perV, left, upper, most),
             b = kernels.referenceDepth(depth, perU, perV, right, upper, most),
             c = kernels.referenceDepth(depth, perU, perV, left, lower, most),
@@ -234,9 +239,9 @@ template <class T>
                                                                       const T& dv) const {
     K kernels{buffers_};
     uint32_t bits = 0;
-    for (int part = 0; part * N <= settings_.taps; part++) {
+    for (int part = 0; part * N <= taps_; part++) {
         const T reference =
-            kernels.referenceDepth(depth, perU, perV, du[static_cast<size_t>(part)], dv, settings_.farthest);
+            kernels.referenceDepth(depth, perU, perV, du[static_cast<size_t>(part)], dv, farthest_);
         bits |= bitsOf(Number<T>::load(row + part * N) < reference) << (part * N);
     }
     return bits;
@@ -248,25 +253,23 @@ template <class T>
 [[gnu::always_inline]] inline typename WindowLookup<T>::Windows WindowLookup<T>::shadowedInSmallWindow(
     const Stored* row, const T& depth, const T& perU, const T& perV, const T& centreU,
     const T& centreV) const {
-    const int taps = settings_.taps;
-    const ptrdiff_t stride = buffers_.texels.stride();
     uint64_t bits = 0;
     if constexpr (std::is_same_v<T, Lanes<float, 16>>) {
         K kernels{buffers_};
         const T du = centreU + columnsOfTwoRows_;
         // The row behind the last one is not counted.
-        for (int j = 0; j <= taps; j += 2, row += 2 * stride) {
+        for (int j = 0; j <= taps_; j += 2, row += 2 * stride_) {
             const T dv = centreV + (rowsOfTwoRows_ + T(static_cast<double>(j)));
             using Row = Lanes<Stored, N / 2>;
-            const T texels(joinLanes(Row::load(row), Row::load(row + stride)).v);
-            const T reference = kernels.referenceDepth(depth, perU, perV, du, dv, settings_.farthest);
+            const T texels(joinLanes(Row::load(row), Row::load(row + stride_)).v);
+            const T reference = kernels.referenceDepth(depth, perU, perV, du, dv, farthest_);
             bits |= uint64_t{bitsOf(texels < reference)} << (8 * j);
         }
     } else {
         WindowColumns du;
-        for (size_t part = 0; part * N <= static_cast<size_t>(taps); part++)
+        for (size_t part = 0; part * N <= static_cast<size_t>(taps_); part++)
             du[part] = centreU + columns_[part];
-        for (int j = 0; j <= taps; j++, row += stride) {
+        for (int j = 0; j <= taps_; j++, row += stride_) {
             const T dv = centreV + T(static_cast<double>(j));
             bits |= uint64_t{shadowedInRow(row, depth, perU, perV, du, dv) & 0xff} << (8 * j);
         }
@@ -280,16 +283,15 @@ typename WindowLookup<T>::Windows WindowLookup<T>::shadowedInWindow(const Stored
                                                                     const T& perU, const T& perV,
                                                                     const T& centreU,
                                                                     const T& centreV) const {
-    const int taps = settings_.taps;
-    const uint32_t window = (1u << taps) - 1;
+    const uint32_t window = (1u << taps_) - 1;
     WindowColumns du;
-    for (size_t part = 0; part * N <= static_cast<size_t>(taps); part++) du[part] = centreU + columns_[part];
+    for (size_t part = 0; part * N <= static_cast<size_t>(taps_); part++) du[part] = centreU + columns_[part];
     Windows shadowed{};
-    for (int j = 0; j <= taps; j++, row += buffers_.texels.stride()) {
+    for (int j = 0; j <= taps_; j++, row += stride_) {
         const T dv = centreV + T(static_cast<double>(j));
         const uint32_t bits = shadowedInRow(row, depth, perU, perV, du, dv);
         const int left = std::popcount(bits & window), right = std::popcount(bits >> 1 & window);
-        if (j < taps) shadowed[0] += left, shadowed[1] += right;
+        if (j < taps_) shadowed[0] += left, shadowed[1] += right;
         if (j > 0) shadowed[2] += left, shadowed[3] += right;
     }
     return shadowed;
@@ -299,21 +301,20 @@ typename WindowLookup<T>::Windows WindowLookup<T>::shadowedInWindow(const Stored
 template <class T>
 void WindowLookup<T>::weigh(const Places& places, size_t count, std::span<double> visibility) const {
     K kernels{buffers_};
-    const int taps = settings_.taps;
     std::array<std::array<Stored, kChunk>, 4> lit;
     Decided decided;
     for (size_t i = 0; i < count; i++) {
         const size_t lane = i % N;
         if (lane == 0) decided = decide(places, i, static_cast<int>(std::min<size_t>(N, count - i)));
         const bool isShadowed = (decided.shadowed >> lane & 1) != 0 && places.layer[i] != kNoLayer;
-        const auto whole = static_cast<Stored>(taps * taps);
+        const auto whole = static_cast<Stored>(taps_ * taps_);
         for (auto& corner : lit) corner[i] = isShadowed ? Stored(0) : whole;
         if (places.layer[i] == kNoLayer || isShadowed || (decided.lit >> lane & 1) != 0) continue;
         const T depth(places.depth[i]), perU(places.perU[i]), perV(places.perV[i]);
         const Stored* row =
             buffers_.texels.row(static_cast<size_t>(places.layer[i]), places.x[i], places.y[i]);
         const Windows shadowed =
-            taps < 8
+            taps_ < 8
                 ? shadowedInSmallWindow(row, depth, perU, perV, T(places.centreU[i]), T(places.centreV[i]))
                 : shadowedInWindow(row, depth, perU, perV, T(places.centreU[i]), T(places.centreV[i]));
         for (size_t corner = 0; corner < lit.size(); corner++)
@@ -324,7 +325,7 @@ void WindowLookup<T>::weigh(const Places& places, size_t count, std::span<double
             return Number<T>::load(&from[offset], active);
         };
         const T part = kernels.litPart(load(lit[0]), load(lit[1]), load(lit[2]), load(lit[3]),
-                                       load(places.fractionX), load(places.fractionY), taps);
+                                       load(places.fractionX), load(places.fractionY), taps_);
         for (int i = 0; i < active; i++) {
             const size_t at = offset + static_cast<size_t>(i);
             visibility[at] = places.layer[at] == kNoLayer ? 1.0 : numberLane(part, i);
