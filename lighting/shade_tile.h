@@ -481,9 +481,10 @@ void TileShaderOf<T>::shadeSurface(const Bucket& bucket, const Group& group, con
     if (needEye) {
         toEye = kernels_.sub3(eye_, interpolated.position);
         if (distance) {
-            const T depth = kernels_.viewDepth(interpolated.position, eye_, forward_);
             put(ShadeOutput::distance, group, vec3(kernels_.length3(toEye), T(0.0), T(0.0)));
-            put(ShadeOutput::depth, group, vec3(depth, T(0.0), T(0.0)));
+            if (job_.request[ShadeOutput::depth])
+                put(ShadeOutput::depth, group,
+                    vec3(kernels_.viewDepth(interpolated.position, eye_, forward_), T(0.0), T(0.0)));
         }
         toEye = kernels_.unit3(toEye);
     }
