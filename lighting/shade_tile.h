@@ -490,7 +490,8 @@ void TileShaderOf<T>::shadeSurface(const Bucket& bucket, const Group& group, con
             put(output, group, vec3(value, T(0.0), T(0.0)));
         };
         put1(ShadeOutput::distance, kernels_.distanceToEye(eye_, point.position));
-        put1(ShadeOutput::depth, kernels_.viewDepth(point.position, eye_, forward_));
+        if (job_.request[ShadeOutput::depth])
+            put1(ShadeOutput::depth, kernels_.viewDepth(point.position, eye_, forward_));
     }
     if (parts.seen) putSeen(bucket, group, interpolated, visibility);
     if (parts.needEye) point.toEye = kernels_.directionToEye(eye_, point.position);
