@@ -1,5 +1,5 @@
-// Acne and detachment over depth formats, slopes and biases: prints the tables of
-// docs/experiments/shadow_bias.md.
+// Acne and detachment over depth formats, slopes and biases. Prints the tables of docs/experiments/shadow_bias.md
+// between lines "== NAME"; scripts/experiments puts them there.
 
 #include <array>
 #include <cmath>
@@ -143,7 +143,7 @@ Outcome measure(const Setting& setting, ShadowDepth depth, double fromNormal_deg
 
 int run() {
     for (const auto& [depthName, depth] : kDepths) {
-        printText("### {}\n\n| bias |", depthName);
+        printText("== bias-{}\n| bias |", depthName);
         for (const double angle_deg : kAngles_deg) printText(" {} deg |", angle_deg);
         printText("\n| --- |");
         for (size_t i = 0; i < kAngles_deg.size(); i++) printText(" ---: |");
@@ -156,7 +156,6 @@ int run() {
             }
             printText("\n");
         }
-        printText("\n");
     }
     return 0;
 }
