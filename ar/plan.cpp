@@ -70,9 +70,6 @@ class Planner : public std::enable_shared_from_this<Planner> {
             requireSampling(profile, arithmetic, "an environment", scene_.environment.line, latLong.width(),
                             latLong.height());
     }
-    void requireSampling(const Profile& profile, const EnvironmentImage& of) const {
-        requireSampling(profile, profile.fragment, of);
-    }
 
     bool asked(std::string_view output) const {
         return std::ranges::find(outputs_, output) != outputs_.end();
@@ -359,7 +356,7 @@ class Planner : public std::enable_shared_from_this<Planner> {
             std::optional<CubeMap<float>>{},
             [this](const PassContext& context, const EnvironmentImage& of) -> std::optional<CubeMap<float>> {
                 if (of.radiance.latLong.empty()) return std::nullopt;
-                requireSampling(context.profile, of);
+                requireSampling(context.profile, context.profile.fragment, of);
                 return environmentCube(of.radiance, context.profile, settings_.raster.threads);
             },
             image());
@@ -614,7 +611,7 @@ class Planner : public std::enable_shared_from_this<Planner> {
         addTerm(
             list, ShadeOutput::background, "background", showing_.whyBlack(ShadeOutput::background),
             [this, profile = profile_](ShadeJob& job, const EnvironmentImage& of) {
-                requireSampling(*profile, of);
+                requireSampling(*profile, profile->fragment, of);
                 job.environment = &of.radiance;
             },
             image());
