@@ -31,8 +31,8 @@ inline constexpr double kMinDirectionLength = 1e-9;
 inline constexpr double kMaxExponent = 4096;
 // Largest magnitude of the exposure, in stops: factors of 2^+-32.
 inline constexpr double kMaxExposure = 32;
-// Largest outer angle of a spot light, and how much smaller the inner one must be.
-inline constexpr double kMaxCone_deg = 89.9, kMinConeStep_deg = 0.01;
+// Largest outer angle of a spot light, how much smaller the inner one must be, and what it is by default.
+inline constexpr double kMaxCone_deg = 89.9, kMinConeStep_deg = 0.01, kDefaultInnerCone_deg = 0;
 // Largest edge of a reflection cube map, in texels (six faces of float RGB: 4.5 GiB).
 inline constexpr int kMaxCubeSize = 8192;
 

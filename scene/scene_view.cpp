@@ -188,7 +188,7 @@ SceneLight readLight(const std::string& file, const TomlValue& value) {
     }
     // The angles from the direction where the intensity begins to fall and where it is 0.
     const double outer_deg = reader.number("outer_deg");
-    const double inner_deg = reader.has("inner_deg") ? reader.number("inner_deg") : 0;
+    const double inner_deg = reader.has("inner_deg") ? reader.number("inner_deg") : kDefaultInnerCone_deg;
     if (!(inner_deg <= outer_deg - kMinConeStep_deg))
         reader.failKey(reader.has("inner_deg") ? "inner_deg" : "outer_deg",
                        formatText("must be at least {} below 'outer_deg' ({}), not {}", kMinConeStep_deg,

@@ -264,7 +264,7 @@ TableSchema makeTable(SceneTable table) {
                  number({"outer_deg"}, {kMinConeStep_deg, kMaxCone_deg}, "required for spot",
                         "from the direction to where the light ends"),
                  withRange(
-                     number({"inner_deg"}, {0, kMaxCone_deg}, text(SceneLight{}.inner_deg),
+                     number({"inner_deg"}, {0, kMaxCone_deg}, text(kDefaultInnerCone_deg),
                             "from the direction to where it begins to fall: 3 t^2 - 2 t^3, t linear in the "
                             "cosine"),
                      formatText("[0, `outer_deg` - {}]", kMinConeStep_deg)),

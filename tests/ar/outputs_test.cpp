@@ -52,7 +52,8 @@ Scene blockedScene(std::vector<std::string> outputs, ShadowMethod method) {
     Scene scene = wallScene(std::move(outputs));
     scene.planes.push_back(planeAt({-1, 0, -2}, 0.8, "square"));
     SceneLight light;
-    light.direction = unitOf(glm::dvec3(1, 0, -1));
+    light.axis = unitOf(glm::dvec3(1, 0, -1));
+    light.toLight = -light.axis;
     light.irradiance = glm::dvec3(2);
     light.shadow.method = method;
     light.shadow.map.size = 256;
@@ -296,7 +297,8 @@ TEST_CASE("IrradianceOfAConstantEnvironmentIsPi") {
     }
     // Other lights are no part of either; what reflects nothing receives it all the same.
     SceneLight light;
-    light.direction = {0, 0, -1};
+    light.axis = {0, 0, -1};
+    light.toLight = {0, 0, 1};
     light.irradiance = glm::dvec3(5);
     const Frame before = frameOf(scene);
     scene.lights = {light};
@@ -388,7 +390,7 @@ TEST_CASE("ShadowMapsAreFiles") {
     CHECK_FALSE(result.plan.find("diffuse")->runs);
     // Of a point light: six faces, with their borders.
     scene.lights[0].kind = LightKind::point;
-    scene.lights[0].position = {-1, 0, -1};
+    scene.lights[0].position_m = {-1, 0, -1};
     scene.lights[0].intensity = glm::dvec3(1);
     scene.lights[0].shadow.map.depth = ShadowDepth::linear;
     result = renderScene(scene, {});
