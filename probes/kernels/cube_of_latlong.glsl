@@ -10,15 +10,10 @@
 
 // The mean over the parts x parts equal parts of a texel of a face, row by row; share is 1 / parts^2.
 vec3 cubeTexelOfLatLong(texture env, int face, int parts, real share, Sampling s) {
-    vec3 sum = vec3(real(0.0), real(0.0), real(0.0));
-    for (int j = 0; j < parts; j++)
-        for (int i = 0; i < parts; i++) {
-            vec3 value = sampleLatLong(env, cubeDirection(integer(face), partU(i), partV(j)), s);
-            if (i + j == 0)
-                sum = value;
-            else
-                sum = add3(sum, value);
-        }
+    integer ofFace = integer(face);
+    vec3 sum = sampleLatLong(env, cubeDirection(ofFace, partU(0), partV(0)), s);
     if (parts == 1) return sum;
+    for (int part = 1; part < parts * parts; part++)
+        sum = add3(sum, sampleLatLong(env, cubeDirection(ofFace, partU(part % parts), partV(part / parts)), s));
     return scale3(sum, share);
 }
