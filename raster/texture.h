@@ -115,11 +115,12 @@ struct TexelFetch {
         } else
             return Number<T>::generate([&](int i) { return t.stored(layer[i], channel, x[i], y[i]); });
     }
-    // The first three channels of two texels, if the second one is stored behind the first one in every lane
-    // and T is lanes of the stored type; else false, and nothing is written.
+    // The first three channels of two texels, if the second one is stored behind the first one in every lane,
+    // texels are floats and T has lanes of float; else false, and nothing is written.
     static bool neighbours(const TextureView& t, Integer layer0, Integer x0, Integer y0, Integer layer1,
                            Integer x1, Integer y1, glm::vec<3, T>& first, glm::vec<3, T>& second) {
-        if constexpr (std::is_same_v<T, Lanes<float, kCount>>) {
+        using Floats = Lanes<float, kCount>;
+        if constexpr (std::is_same_v<T, Floats> || std::is_same_v<T, Narrow<Floats>>) {
             constexpr size_t kLargest = size_t{1} << 31;
             if (t.planeSize() >= kLargest || !t.floats(0)) return false;
             const Integer width = Integer(static_cast<double>(t.width()));
@@ -131,8 +132,16 @@ struct TexelFetch {
             const float* layer = t.floats(layer0[0]);
             for (int i = 0; i < kCount; i++)
                 texels[static_cast<size_t>(i)] = (isOneLayer ? layer : t.floats(layer0[i])) + offset[i];
-            for (int c = 0; c < 3; c++)
-                loadPairs(texels, static_cast<size_t>(c) * t.planeSize(), first[c], second[c]);
+            for (int c = 0; c < 3; c++) {
+                const size_t channel = static_cast<size_t>(c) * t.planeSize();
+                if constexpr (std::is_same_v<T, Floats>) {
+                    loadPairs(texels, channel, first[c], second[c]);
+                } else {
+                    Floats a, b;
+                    loadPairs(texels, channel, a, b);
+                    first[c] = T(a), second[c] = T(b);
+                }
+            }
             return true;
         }
         return false;
