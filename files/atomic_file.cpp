@@ -37,8 +37,8 @@ int claimSlot(const std::string& path) {
         slot.state.store(kPending);
         return i;
     }
-    ETALON_CHECK(false, "more than {} files are being written", AtomicFile::kMaxPending);
-    return -1;
+    throw InputError(
+        formatText("{}: cannot write: more than {} files at once", path, AtomicFile::kMaxPending));
 }
 
 void releaseSlot(int slot) { slots[static_cast<size_t>(slot)].state.store(kFree); }

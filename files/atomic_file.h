@@ -11,10 +11,10 @@ namespace etalon {
 // commit (an exception, a signal after installSignalCleanup) the temporary is removed and the target is as it
 // was. A symbolic link is followed: the file it names is replaced. A target that exists and is neither a file
 // nor a directory (a pipe, /dev/null) is written directly, without a temporary. At most kMaxPending of them
-// may be open at a time. Errors of the system are InputError "path: reason".
+// may be open at a time, more are an InputError. Errors of the system are InputError "path: reason".
 class AtomicFile {
   public:
-    static constexpr int kMaxPending = 32;
+    static constexpr int kMaxPending = 1024;
 
     // Creates the temporary. InputError: missing or read-only folder, a directory or read-only file as
     // target.

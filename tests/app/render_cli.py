@@ -108,6 +108,12 @@ class Render(CliCase):
         self.expect_error("has no channel", "render", "scene.toml", "-o", "b.exr", "--outputs", "shadow_map")
         self.assertNotIn("b.exr", self.images())
 
+    def test_a_shadow_map_of_each_of_many_lights_is_a_file(self):
+        light = '[[light]]\nkind = "directional"\ndirection = [{}, -9, -1]\nirradiance = [1, 1, 1]\nshadow = "map"\n'
+        self.scene(more="".join(light.format(i) + "shadow_size = 16\n" for i in range(40)))
+        self.expect(0, "render", "scene.toml", "-o", "a.exr", "--outputs", "beauty,shadow_map")
+        self.assertEqual(len(self.images()), 41)
+
     def test_with_one_thread_there_is_one(self):
         """Looked at while it runs and writes: a look may come too late, but sees no thread that is not there."""
         scene, seen = self.scene(width=900, height=900), []
