@@ -211,6 +211,21 @@ double numberOfPattern(uint32_t pattern) {
     return pattern >> 15 != 0 && magnitude == magnitude ? -magnitude : magnitude;
 }
 
+// A number of the format and the middle between it and the next pattern's, and the doubles next to both: what a
+// conversion may get wrong.
+constexpr int kConversions = 6;
+template <Format F>
+double numberToConvert(uint32_t pattern, int which) {
+    const double number = numberOfPattern<F>(pattern), next = numberOfPattern<F>((pattern + 1) & 0xffff);
+    const double beyond = std::copysign(powerOfTwo(F.maxExponent + 1), number);
+    const double middle = (number + (std::isinf(next) ? beyond : next)) / 2;
+    const double start = which < kConversions / 2 ? number : middle;
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    const std::array<double, 3> values = {start, std::nextafter(start, kInfinity),
+                                          std::nextafter(start, -kInfinity)};
+    return values[static_cast<size_t>(which % 3)];
+}
+
 template <Format F>
 size_t mismatchesOf(uint32_t first, uint32_t last, uint32_t step) {
     constexpr uint32_t kPatterns = 1u << 16;
@@ -230,6 +245,13 @@ size_t mismatchesOf(uint32_t first, uint32_t last, uint32_t step) {
         compare(a, exactA);
         compare(squareRoot(a), squareRoot(exactA));
         compare(floorOf(a), floorOf(exactA));
+        for (int which = 0; which < kConversions; which++) {
+            const auto toConvert = [&](int i) {
+                return numberToConvert<F>(pattern + static_cast<uint32_t>(i), which);
+            };
+            compare(Number<NarrowLanes>::generate(toConvert), Number<R>::generate(toConvert));
+            compare(NarrowLanes(toConvert(0)), R(toConvert(0)));
+        }
         for (uint32_t other = 0; other < kPatterns; other += step) {
             const double value = numberOfPattern<F>(other);
             const NarrowLanes b(value);

@@ -273,11 +273,15 @@ typename TileTriangles<T>::vec3 TileTriangles<T>::edgeValues(const Group& group,
             const Whole e_1 = value(kEdge1), e_2 = value(kEdge2);
             const auto scaled = [&](const Whole& e) {
                 const Signed inside(__builtin_bit_cast(typename Signed::Vector, e.v));
-                // The product is rounded once: a narrow number's is taken in double.
-                if constexpr (std::is_same_v<T, Narrow<Row>>)
-                    return T(convertLanes<double>(inside) * convertLanes<double>(areaScale));
-                else
+                // The product with a power of two is rounded once: a narrow number's is exact in float for
+                // integers of at most 24 bits; larger ones lose 7 bits to the last one left (rounding to odd).
+                if constexpr (std::is_same_v<T, Narrow<Row>>) {
+                    const Signed cut(0x7f), largest(0x1p24);
+                    const Signed odd = (inside | ((inside & cut) + cut)) & Signed(-0x80);
+                    return T(convertLanes<Stored>(select(inside > largest, odd, inside)) * areaScale);
+                } else {
                     return T(convertLanes<Stored>(inside) * areaScale);
+                }
             };
             return {scaled(words[kArea] - (e_1 + e_2)), scaled(e_1), scaled(e_2)};
         }

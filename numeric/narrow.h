@@ -51,24 +51,37 @@ struct Narrow {
     Narrow() = default;
     // The value rounded once to the format; the same in each lane.
     [[gnu::always_inline]] explicit Narrow(double value) {
-        if (__builtin_constant_p(value) && (value == 0 || value == 1 || value == -1))
-            v = D(static_cast<float>(value));
+        // Literals of texts are rounded when compiling.
+        if (__builtin_constant_p(value))
+            v = D(static_cast<float>(emulatedFormat.isBinary16 ? roundTo<kFp16>(value)
+                                                               : roundTo<kBf16>(value)));
         else
-            v = D(static_cast<float>(EmulatedOperations<double>::rounded(value)));
+            v = D(roundedOnce(value));
     }
     // Each lane rounded once to the format.
     explicit Narrow(D value) requires(!std::same_as<D, float>) : v(rounded(value)) {}
     template <int N>
     requires std::same_as<D, Lanes<float, N>>
-    explicit Narrow(Lanes<double, N> value)
-        : v(convertInParts(perRegister(
-              [](auto part) { return EmulatedOperations<decltype(part)>::rounded(part); }, value))) {}
+    explicit Narrow(Lanes<double, N> value) : v(rounded(convertInParts(value))) {}
 
     // Takes a value that is a number of the format already (in each lane); not checked.
     static Narrow ofRepresentable(D value) {
         Narrow r;
         r.v = value;
         return r;
+    }
+
+    // Doubles, or a register of them, cut to 16 bits of significand, and the last one made 1 where that loses something
+    // (rounding to odd). 16 >= p + 2: what is cut lies on the same side of every number of the format and of every
+    // middle between two as the double does. From 2^-134 on it is a float, or beyond all of them; below, both formats
+    // have 0, and so they do for what float makes of it.
+    template <class Double>
+    [[gnu::always_inline]] static Double cutToOdd(Double x) {
+        using Pattern = DoubleBits<Double>;
+        constexpr int64_t kCutBits = (int64_t{1} << (52 - 15)) - 1;
+        const auto bits = Pattern::of(x);
+        // The carry into the last bit that is kept.
+        return Pattern::from((bits | ((bits & kCutBits) + kCutBits)) & ~kCutBits);
     }
 
     // Each lane rounded once to the format.
@@ -78,9 +91,15 @@ struct Narrow {
         return select(x == x, r, D(std::bit_cast<float>(uint32_t{0x7fc00000})));
     }
 
-    friend Narrow operator+(Narrow a, Narrow b) { return ofRepresentable(rounded(a.v + b.v)); }
-    friend Narrow operator-(Narrow a, Narrow b) { return ofRepresentable(rounded(a.v - b.v)); }
-    friend Narrow operator*(Narrow a, Narrow b) { return ofRepresentable(rounded(a.v * b.v)); }
+    [[gnu::always_inline]] friend Narrow operator+(Narrow a, Narrow b) {
+        return ofRepresentable(rounded(a.v + b.v));
+    }
+    [[gnu::always_inline]] friend Narrow operator-(Narrow a, Narrow b) {
+        return ofRepresentable(rounded(a.v - b.v));
+    }
+    [[gnu::always_inline]] friend Narrow operator*(Narrow a, Narrow b) {
+        return ofRepresentable(rounded(a.v * b.v));
+    }
     friend Narrow operator/(Narrow a, Narrow b) { return ofRepresentable(rounded(a.v / b.v)); }
     friend Narrow operator-(Narrow a) { return ofRepresentable(-a.v); }
 
@@ -120,10 +139,14 @@ struct Narrow {
         const auto bits = B::of(x);
         return B::from((bits + 0x7fffu + ((bits >> 16) & 1u)) & 0xffff0000u);
     }
+    // The value rounded once to the format.
+    [[gnu::noinline]] static float roundedOnce(double x) {
+        return Narrow<float>::rounded(static_cast<float>(cutToOdd(x)));
+    }
     template <int N>
-    static Lanes<float, N> convertInParts(Lanes<double, N> a) {
+    [[gnu::always_inline]] static Lanes<float, N> convertInParts(Lanes<double, N> a) {
         if constexpr (N <= kNativeLanes<double>)
-            return convertLanes<float>(a);
+            return convertLanes<float>(cutToOdd(a));
         else
             return joinLanes(convertInParts(lowerLanes(a)), convertInParts(upperLanes(a)));
     }
@@ -257,15 +280,12 @@ struct ElementaryFunctions<Narrow<D>> {
 
     template <class F>
     static R inDouble(R a, R b, F&& f) {
-        const auto once = [&](auto x, auto y) {
-            const auto r = f(x, y);
-            return EmulatedOperations<std::remove_cv_t<decltype(r)>>::rounded(r);
-        };
+        const auto cut = [&](auto x, auto y) { return R::cutToOdd(f(x, y)); };
         if constexpr (std::same_as<D, float>)
             return R::ofRepresentable(
-                static_cast<float>(once(static_cast<double>(a.v), static_cast<double>(b.v))));
+                R::rounded(static_cast<float>(cut(static_cast<double>(a.v), static_cast<double>(b.v)))));
         else
-            return R::ofRepresentable(byRegisters(a.v, b.v, once));
+            return R::ofRepresentable(R::rounded(byRegisters(a.v, b.v, cut)));
     }
 };
 
