@@ -34,7 +34,7 @@ struct NumberPasses {
     std::vector<BitPlane> (*sampling)(const NumberTables& tables, const TextureView& image);
     std::vector<BitPlane> (*cubeSampling)(const NumberTables& tables, const TextureView& cube,
                                           const TextureView& latLong);
-    // fp16 and bf16, in this order: how many results of + - * /, the square root and floor have other bits in
+    // fp16 and bf16, in this order: how many results of + - * /, powers, the square root and floor have other bits in
     // Narrow than in Rounded. a: the 16-bit patterns first ... last - 1; b: every step-th one.
     std::array<size_t, 2> (*narrowMismatches)(uint32_t first, uint32_t last, uint32_t step);
 };

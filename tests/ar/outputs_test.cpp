@@ -410,6 +410,31 @@ TEST_CASE("ShadowMapsAreFiles") {
     CHECK_THROWS_AS(renderScene(scene, {}), InputError);
 }
 
+// The lights of an environment are found for their maps alone, too.
+TEST_CASE("ShadowMapsOfAnEnvironmentAreFiles") {
+    Scene scene = blockedScene({"ids", "shadow_map"}, ShadowMethod::none);
+    scene.lights.clear();
+    scene.environment.kind = EnvironmentKind::constant;
+    scene.environment.constant = glm::dvec3(1);
+    scene.environment.lighting = EnvironmentLightMethod::lights;
+    scene.environment.lightCount = 16;
+    scene.environment.shadow.method = ShadowMethod::map;
+    scene.environment.shadow.map.size = 16;
+    scene.environment.shadowLights = 16;
+    const RenderResult alone = renderScene(scene, {});
+    CHECK_FALSE(alone.plan.find("diffuse")->runs);
+    CHECK(alone.files.size() + alone.warnings.size() == 16);
+    REQUIRE(alone.files.size() > 4);
+    scene.output.images.emplace_back("beauty");
+    const RenderResult result = renderScene(scene, {});
+    REQUIRE(result.files.size() == alone.files.size());
+    for (size_t i = 0; i < alone.files.size(); i++) {
+        CHECK(result.files[i].name == alone.files[i].name);
+        CHECK(std::ranges::equal(valuesOf(result.files[i].frame, "depth"),
+                                 valuesOf(alone.files[i].frame, "depth")));
+    }
+}
+
 TEST_CASE("OutputsRunTheirPassesAndNoOthers") {
     const auto runs = [](const Scene& scene, const char* pass) {
         const Plan plan = renderScene(scene, {}).plan;
