@@ -112,7 +112,7 @@ std::vector<std::string> namedPasses(std::string reason) {
     };
     if (reason.ends_with(" does not run"))
         cut(" does not run", ",");
-    else if (reason.starts_with("neither ") || reason.starts_with("none of "))
+    else if (reason.ends_with(" runs"))
         reason.erase(0, 8), cut(" runs", ","), cut(" nor ", ","), cut(" and ", ","), cut(", ", ",");
     else
         return names;
