@@ -1,9 +1,9 @@
 #include <memory>
 
-#include "app/golden_support.h"
 #include "app/options.h"
 #include "app/output.h"
 #include "app/verbs.h"
+#include "golden/golden.h"
 #include "numeric/text.h"
 
 namespace etalon {
@@ -16,10 +16,12 @@ struct AcceptOptions {
 ExitCode runAccept(const AcceptOptions& options, const GoldenSupport& support) {
     GoldenManifest manifest = readManifest(options.manifest);
     ProgressLine progress;
+    TimeLeft left;
     const auto accepted =
         acceptGolden(manifest, options.pattern, options.reason, support.rulesVersion, support.render,
                      [&](const std::string& name, size_t index, size_t count) {
-                         progress.show(formatText("[{}/{}] {}", index + 1, count, name));
+                         progress.show(formatText("[{}/{}] {}", index + 1, count, name) +
+                                       left.of(1, static_cast<double>(index) / static_cast<double>(count)));
                      });
     progress.finish();
     if (accepted.empty()) {

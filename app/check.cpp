@@ -1,10 +1,10 @@
 #include <memory>
 
-#include "app/golden_support.h"
 #include "app/options.h"
 #include "app/output.h"
 #include "app/report.h"
 #include "app/verbs.h"
+#include "golden/golden.h"
 #include "numeric/text.h"
 
 namespace etalon {
@@ -35,10 +35,13 @@ Json resultJson(const GoldenResult& result) {
 ExitCode runCheck(const CheckOptions& options, const GoldenSupport& support) {
     const GoldenManifest manifest = readManifest(options.manifest);
     ProgressLine progress;
-    const auto results = checkGolden(manifest, options.pattern, support.rulesVersion, support.render,
-                                     [&](const std::string& name, size_t index, size_t count) {
-                                         progress.show(formatText("[{}/{}] {}", index + 1, count, name));
-                                     });
+    TimeLeft left;
+    const auto results =
+        checkGolden(manifest, options.pattern, support.rulesVersion, support.render,
+                    [&](const std::string& name, size_t index, size_t count) {
+                        progress.show(formatText("[{}/{}] {}", index + 1, count, name) +
+                                      left.of(1, static_cast<double>(index) / static_cast<double>(count)));
+                    });
     progress.finish();
     size_t same = 0;
     bool failed = false;

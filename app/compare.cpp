@@ -8,6 +8,7 @@
 #include "app/verbs.h"
 #include "files/image_io.h"
 #include "numeric/text.h"
+#include "scene/toml_reader.h"
 
 namespace etalon {
 namespace {
@@ -33,9 +34,17 @@ void checkErrorPath(const CompareOptions& options) {
 ExitCode runCompare(const CompareOptions& options) {
     const bool wantsError = !options.errorImage.empty();
     if (wantsError) checkErrorPath(options);
-    const Frame a = readFrame(options.a), b = readFrame(options.b);
-    const Comparison comparison = compareFrames(a, b, options.maxWorst);
-    if (wantsError && !comparison.channels.empty()) writeExr(errorFrame(a, b), options.errorImage);
+    ProgressLine progress;
+    const auto read = [&](const std::string& file) {
+        return progress.during("reading " + printable(file), [&] { return readFrame(file); });
+    };
+    const Frame a = read(options.a), b = read(options.b);
+    const Comparison comparison =
+        progress.during("comparing", [&] { return compareFrames(a, b, options.maxWorst); });
+    if (wantsError && !comparison.channels.empty())
+        progress.during("writing " + printable(options.errorImage),
+                        [&] { writeExr(errorFrame(a, b), options.errorImage); });
+    progress.finish();
     printOut(options.json ? jsonText(comparisonJson(comparison))
                           : comparisonText(comparison, options.a, options.b));
     if (wantsError && comparison.channels.empty())

@@ -1,11 +1,11 @@
 #include "app/command_line.h"
-#include "app/golden_support.h"
 #include "app/verbs.h"
 #include "ar/render_scene.h"
 #include "bitcheck/bit_case.h"
+#include "golden/golden.h"
 #include "raster/rules.h"
 #include "scene/profile_file.h"
-#include "scene/scene_loader.h"
+#include "scene/scene.h"
 
 namespace {
 

@@ -3,9 +3,11 @@
 #include <limits>
 
 #include "numeric/isa.h"
+#include "numeric/text.h"
 #include "probes/mapping.h"
 #include "scene/outputs.h"
 #include "scene/profile_file.h"
+#include "scene/toml_reader.h"
 
 namespace etalon {
 namespace {
@@ -50,12 +52,12 @@ void ProbeInput::addTo(Verb& verb) {
         .range(kLeastBallDistance_radii, std::numeric_limits<double>::infinity());
 }
 
-Probe ProbeInput::load() const {
+Probe ProbeInput::load(ProgressLine& progress) const {
     ProbeFileOptions options;
     if (!mapping.empty()) options.mapping = *memberOf<Mapping>(mapping);
     if (!layout.empty()) options.layout = *memberOf<CubeLayout>(layout);
     if (ballDistance_radii > 0) options.ballDistance_radii = ballDistance_radii;
-    return loadProbe(file, options);
+    return progress.during("reading " + printable(file), [&] { return loadProbe(file, options); });
 }
 
 void SceneOptions::addTo(Verb& verb) {
@@ -76,6 +78,18 @@ RenderOptions SceneOptions::renderOptions() const {
     options.raster = raster;
     options.strict = strict;
     return options;
+}
+
+std::string RenderProgressText::of(const RenderProgress& progress) {
+    if (progress.pass != pass_) pass_ = progress.pass, left_ = {};
+    const auto& passes = progress.plan->passes;
+    size_t number = 0, count = 0;
+    for (size_t i = 0; i < passes.size(); i++) {
+        count += passes[i].runs ? 1 : 0;
+        number += passes[i].runs && i <= progress.pass ? 1 : 0;
+    }
+    return formatText("{} ({} of {})", printable(passes[progress.pass].name()), number, count) +
+           left_.of(progress.step, progress.part);
 }
 
 }  // namespace etalon

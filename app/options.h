@@ -1,10 +1,11 @@
-// The options that several verbs share.
+// The options that several verbs share, and how far a render of theirs is.
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include "app/command_line.h"
+#include "app/output.h"
 #include "ar/render_scene.h"
 #include "files/probe_file.h"
 #include "probes/names.h"
@@ -28,7 +29,8 @@ struct ProbeInput {
     double ballDistance_radii = 0;  // not above 0: the file's
 
     void addTo(Verb& verb);
-    Probe load() const;
+    // Says on the line that it reads.
+    Probe load(ProgressLine& progress) const;
 };
 
 // Of a verb with a scene.
@@ -40,6 +42,16 @@ struct SceneOptions {
 
     void addTo(Verb& verb);
     RenderOptions renderOptions() const;
+};
+
+// "shading (12 of 15): 40 %, 3 s left": the time left of the pass.
+class RenderProgressText {
+  public:
+    std::string of(const RenderProgress& progress);
+
+  private:
+    size_t pass_ = SIZE_MAX;
+    TimeLeft left_;
 };
 
 }  // namespace etalon

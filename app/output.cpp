@@ -30,6 +30,13 @@ void ProgressLine::show(const std::string& text) {
     text_ = text;
 }
 
+ProgressScope::Report ProgressLine::reporter(const std::string& what) {
+    show(what);
+    if (!writer_.joinable()) return {};
+    return
+        [this, what, left = TimeLeft()](int step, double part) mutable { show(what + left.of(step, part)); };
+}
+
 void ProgressLine::write() {
     constexpr std::chrono::milliseconds kFirst{1000}, kNext{200};
     std::unique_lock lock(mutex_);
@@ -54,6 +61,16 @@ void ProgressLine::finish() {
     }
     changed_.notify_one();
     writer_.join();
+}
+
+std::string TimeLeft::of(int step, double part) {
+    constexpr double kLeastPart = 0.02;
+    const auto now = std::chrono::steady_clock::now();
+    if (step != step_) step_ = step, start_ = now;
+    if (part < kLeastPart) return "";
+    const double seconds = std::chrono::duration<double>(now - start_).count();
+    return formatText(": {}{:.0f} %, {:.0f} s left", step > 1 ? formatText("step {}, ", step) : "",
+                      100 * part, seconds * (1 - part) / part);
 }
 
 }  // namespace etalon

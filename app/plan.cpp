@@ -6,7 +6,7 @@
 #include "app/options.h"
 #include "app/output.h"
 #include "app/verbs.h"
-#include "scene/scene_loader.h"
+#include "scene/scene.h"
 
 namespace etalon {
 namespace {
@@ -19,7 +19,11 @@ struct PlanVerb {
 ExitCode runPlan(const PlanVerb& verb) {
     RenderOptions options = verb.scene.renderOptions();
     options.request.png = verb.png;
+    ProgressLine progress;
+    RenderProgressText progressText;
+    options.progress = [&](const RenderProgress& at) { progress.show(progressText.of(at)); };
     const Plan plan = planScene(loadScene(verb.scene.scene), options);
+    progress.finish();
     printOut(verb.json ? planJson(plan) : verb.dot ? planDot(plan) : planText(plan));
     return ExitCode::done;
 }

@@ -9,6 +9,7 @@
 #include "numeric/transform.h"
 #include "probes/convert.h"
 #include "scene/profile_file.h"
+#include "scene/toml_reader.h"
 
 namespace etalon {
 namespace {
@@ -47,7 +48,8 @@ ExitCode runProbeConvert(const ProbeConvertVerb& verb) {
     if (std::filesystem::path(verb.output).extension() != ".exr")
         throw InputError(formatText("{}: probes are written as EXR files; name it .exr", verb.output));
     AtomicFile file(verb.output);
-    const Probe source = verb.input.load();
+    ProgressLine progress;
+    const Probe source = verb.input.load(progress);
     ProbeConversion conversion;
     conversion.shape = shapeOf(verb, source);
     conversion.resampling = *memberOf<Resampling>(verb.resampling);
@@ -62,8 +64,11 @@ ExitCode runProbeConvert(const ProbeConvertVerb& verb) {
         for (int r = 0; r < 3; r++)
             conversion.rotation[c][r] =
                 from[0][r] * aboutY[c][0] + (from[1][r] * aboutY[c][1] + from[2][r] * aboutY[c][2]);
-    const Probe result = convertProbe(source, conversion, profile.fragment, verb.threads);
-    file.write(encodeExr(frameOfProbe(result, *memberOf<CubeLayout>(verb.toLayout)), verb.threads));
+    const Probe result = progress.during(
+        "converting", [&] { return convertProbe(source, conversion, profile.fragment, verb.threads); });
+    file.write(progress.during("writing " + printable(verb.output), [&] {
+        return encodeExr(frameOfProbe(result, *memberOf<CubeLayout>(verb.toLayout)), verb.threads);
+    }));
     file.commit();
     return ExitCode::done;
 }

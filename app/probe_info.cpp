@@ -24,11 +24,14 @@ Json jsonOf(const glm::dvec3& v) {
 std::string textOf(const glm::dvec3& v) { return formatText("{:.6g} {:.6g} {:.6g}", v.x, v.y, v.z); }
 
 ExitCode runProbeInfo(const ProbeInfoVerb& verb) {
-    const Probe probe = verb.input.load();
-    const ProbeStatistics s = statisticsOf(probe, verb.threads);
+    ProgressLine progress;
+    const Probe probe = verb.input.load(progress);
+    const ProbeStatistics s = progress.during("measuring", [&] { return statisticsOf(probe, verb.threads); });
     const std::vector<glm::dvec3> axes = {{1, 0, 0},  {-1, 0, 0}, {0, 1, 0},
                                           {0, -1, 0}, {0, 0, 1},  {0, 0, -1}};
-    const auto irradiance = irradianceAt(probe, axes, Arithmetic::fp64, verb.threads);
+    const auto irradiance = progress.during(
+        "adding up", [&] { return irradianceAt(probe, axes, Arithmetic::fp64, verb.threads); });
+    progress.finish();
     const std::string_view mapping = nameOf(probe.shape.mapping);
     if (verb.json) {
         Json json = {{"file", verb.input.file},

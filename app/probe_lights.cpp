@@ -57,7 +57,8 @@ ExitCode runProbeLights(const ProbeLightsVerb& verb) {
     if (verb.countIsGiven && !std::has_single_bit(verb.count))
         throw InputError(formatText("--count {}: not a power of two", verb.count));
     const bool isMedianCut = verb.method == "median-cut";
-    const Probe probe = verb.input.load();
+    ProgressLine progress;
+    const Probe probe = verb.input.load(progress);
     if (isMedianCut && probe.shape.mapping != Mapping::latLong)
         throw InputError(formatText("{}: a {} probe; median cut needs a lat-long one", verb.input.file,
                                     nameOf(probe.shape.mapping)));
@@ -73,7 +74,9 @@ ExitCode runProbeLights(const ProbeLightsVerb& verb) {
                                .side = *memberOf<LongerSide>(verb.cut),
                                .place = *memberOf<LightPlace>(verb.position),
                                .weight = *memberOf<TexelWeight>(verb.weights)};
-        LightsOfProbe found = medianCutLights(probe, cut, verb.threads);
+        LightsOfProbe found =
+            progress.during("cutting", [&] { return medianCutLights(probe, cut, verb.threads); });
+        progress.finish();
         warnUncounted(verb.input.file, found.uncountedValues);
         lights = std::move(found.lights);
         for (const ProbeLight& light : lights) {
@@ -92,6 +95,7 @@ ExitCode runProbeLights(const ProbeLightsVerb& verb) {
             text += formatText("{}  radius {:.4g} rad\n", textOf(found.light), found.angularRadius_rad);
         }
     }
+    progress.finish();
     const glm::dvec3 total = totalEnergy(lights);
     if (verb.json) {
         printOut(jsonText({{"file", verb.input.file},

@@ -56,8 +56,11 @@ std::string tableOf(const SphericalHarmonics& f) {
 }
 
 ExitCode runProbeSh(const ProbeShVerb& verb) {
-    const Probe probe = verb.input.load();
-    SphericalHarmonics f = projectHarmonics(probe, verb.degree, verb.threads);
+    ProgressLine progress;
+    const Probe probe = verb.input.load(progress);
+    SphericalHarmonics f =
+        progress.during("projecting", [&] { return projectHarmonics(probe, verb.degree, verb.threads); });
+    progress.finish();
     for (const glm::dvec3& c : f.coefficients)
         if (!std::isfinite(c.x) || !std::isfinite(c.y) || !std::isfinite(c.z))
             throw InputError(formatText("{}: NaN or infinite radiance has no harmonics", verb.input.file));

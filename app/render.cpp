@@ -11,7 +11,7 @@
 #include "files/image_io.h"
 #include "files/json.h"
 #include "numeric/text.h"
-#include "scene/scene_loader.h"
+#include "scene/scene.h"
 #include "scene/toml_reader.h"
 
 namespace etalon {
@@ -34,39 +34,14 @@ void requireKnownExtension(const std::filesystem::path& file) {
                                     file.extension().string()));
 }
 
-// "shading (12 of 15): 40 %, 3 s left": the time left of the pass, once enough of it is done to tell.
-class RenderProgressText {
-  public:
-    std::string of(const RenderProgress& progress) {
-        constexpr double kLeastPart = 0.02;
-        const auto now = std::chrono::steady_clock::now();
-        if (progress.pass != pass_ || progress.part == 0) pass_ = progress.pass, start_ = now;
-        const auto& passes = progress.plan->passes;
-        size_t number = 0, count = 0;
-        for (size_t i = 0; i < passes.size(); i++) {
-            count += passes[i].runs ? 1 : 0;
-            number += passes[i].runs && i <= progress.pass ? 1 : 0;
-        }
-        std::string text =
-            formatText("{} ({} of {})", printable(passes[progress.pass].name()), number, count);
-        if (progress.part < kLeastPart) return text;
-        const double seconds = std::chrono::duration<double>(now - start_).count();
-        return formatText("{}: {:.0f} %, {:.0f} s left", text, 100 * progress.part,
-                          seconds * (1 - progress.part) / progress.part);
-    }
-
-  private:
-    size_t pass_ = SIZE_MAX;
-    std::chrono::steady_clock::time_point start_;
-};
-
-// A line for each pass that ran: its time, its memory, its name.
+// A line for each pass that ran: its time, what its result held, its name.
 std::string timingsText(const Plan& plan) {
     std::string text;
     for (const Pass& pass : plan.passes)
         if (pass.runs)
-            text += formatText("{:9.3f} s {:9.1f} MiB  {}\n", pass.seconds,
-                               static_cast<double>(pass.memory_bytes()) / (1 << 20), printable(pass.name()));
+            text +=
+                formatText("{:9.3f} s {:9.1f} MiB  {}\n", pass.seconds,
+                           static_cast<double>(pass.held.all_bytes()) / (1 << 20), printable(pass.name()));
     return text;
 }
 
@@ -93,10 +68,11 @@ ExitCode runRender(const RenderVerb& verb) {
     const auto start = std::chrono::steady_clock::now();
     const RenderResult result = renderScene(scene, options);
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    progress.show("writing");
     for (size_t i = 0; i < files.size(); i++) {
-        files[i]->write(isPng(verb.files[i]) ? encodePng(result.toned)
-                                             : encodeExr(result.frame, options.raster.threads));
+        const bool isToned = isPng(verb.files[i]);
+        files[i]->write(progress.during("writing " + printable(verb.files[i]), [&] {
+            return isToned ? encodePng(result.toned) : encodeExr(result.frame, options.raster.threads);
+        }));
     }
     // Outputs that are files of their own lie beside each EXR file.
     std::vector<std::string> written = verb.files;
@@ -106,7 +82,9 @@ ExitCode runRender(const RenderVerb& verb) {
             std::filesystem::path path = file;
             written.push_back(path.replace_extension(beside.name + ".exr").string());
             files.push_back(std::make_unique<AtomicFile>(written.back()));
-            files.back()->write(encodeExr(beside.frame));
+            files.back()->write(progress.during("writing " + printable(written.back()), [&] {
+                return encodeExr(beside.frame, options.raster.threads);
+            }));
         }
     for (const auto& file : files) file->commit();
     progress.finish();
@@ -148,7 +126,9 @@ void addRender(Verb& command) {
         .repeated();
     const Option json =
         verb.addFlag("--json", options->json, "Report as JSON on standard output, pass by pass");
-    verb.addFlag("--timings", options->timings, "Say what time and memory each pass took").excludes(json);
+    verb.addFlag("--timings", options->timings,
+                 "Say what time each pass took and what memory its result held")
+        .excludes(json);
     verb.addFlag("--everything", options->everything, "Run every pass, needed or not. Changes no bit");
     verb.onRun([options] { return runRender(*options); });
 }

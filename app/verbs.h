@@ -6,7 +6,7 @@
 namespace etalon {
 
 class Verb;            // app/command_line.h
-struct GoldenSupport;  // app/golden_support.h
+struct GoldenSupport;  // golden/golden.h
 struct BitCase;        // bitcheck/bit_case.h
 
 void addRender(Verb& command);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <set>
 
 #include "numeric/text.h"
 
@@ -40,9 +41,28 @@ size_t PassList::placeOf(std::string_view name) const {
         std::ranges::find_if(passes, [&](const Pass& pass) { return pass.name() == name; }) - passes.begin());
 }
 
+namespace {
+
+// "a does not run", "neither a nor b runs", "none of a, b and c runs"; the passes as numbers.
+std::string noneRunsText(const std::vector<Pass>& passes, const std::set<size_t>& of) {
+    if (of.empty()) return "nothing reads it";
+    std::vector<std::string> names;
+    for (const size_t i : of) names.push_back(passes[i].name());
+    const std::string last = names.back();
+    names.pop_back();
+    if (names.empty()) return last + " does not run";
+    const std::string others = joinText(names, ", ");
+    return names.size() == 1 ? formatText("neither {} nor {} runs", others, last)
+                             : formatText("none of {} and {} runs", others, last);
+}
+
+}  // namespace
+
 void PassList::decide(bool everything) {
-    // From the last pass to the first: who reads each.
+    // From the last pass to the first: who reads each, and which passes, having reasons of their own, would have made
+    // each run.
     std::vector<std::vector<size_t>> readers(passes.size());
+    std::vector<std::set<size_t>> wanting(passes.size());
     for (size_t i = passes.size(); i-- > 0;) {
         Pass& pass = passes[i];
         if (!pass.isDone) {
@@ -60,13 +80,23 @@ void PassList::decide(bool everything) {
                 pass.dependsOn = text.dependsOn;
                 if (pass.dependsOn.empty() && !text.isRoot &&
                     std::ranges::all_of(readers[i], [&](size_t r) { return !passes[r].dependsOn.empty(); })) {
+                    // One that comes before this pass, that is.
                     const auto place = [&](size_t r) { return placeOf(passes[r].dependsOn); };
-                    pass.dependsOn = passes[std::ranges::min(readers[i], {}, place)].dependsOn;
+                    const size_t first = std::ranges::min(readers[i], {}, place);
+                    if (place(first) < i) pass.dependsOn = passes[first].dependsOn;
                 }
             } else {
-                pass.reason = text.nothing.empty() ? text.unneeded : text.nothing;
+                pass.reason = !text.nothing.empty()    ? text.nothing
+                              : !text.unneeded.empty() ? text.unneeded
+                                                       : noneRunsText(passes, wanting[i]);
             }
         }
+        const bool hasReason = pass.runs || !pass.text.nothing.empty() || !pass.text.unneeded.empty();
+        for (const size_t need : pass.needs)
+            if (hasReason)
+                wanting[need].insert(i);
+            else
+                wanting[need].insert(wanting[i].begin(), wanting[i].end());
         if (pass.runs)
             for (const size_t need : pass.needs) readers[need].push_back(i);
     }
@@ -78,14 +108,18 @@ void PassList::decide(bool everything) {
     }
 }
 
-void PassList::run(size_t i, const std::function<void(double)>& progress) {
+void PassList::run(size_t i, const ProgressScope::Report& progress) {
     Pass& pass = passes[i];
     ETALON_CHECK(!pass.isDone && std::ranges::all_of(pass.needs, [&](size_t n) { return passes[n].isDone; }),
                  "pass {} is done or needs what is not", pass.name());
     if (pass.runs) {
         const auto start = std::chrono::steady_clock::now();
-        pass.run({*pass.profile, progress ? progress : [](double) {}});
+        {
+            const ProgressScope watched(progress);
+            pass.run({*pass.profile});
+        }
         pass.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        pass.held = pass.heldNow();
     }
     pass.isDone = true;
     pass.dependsOn.clear();
@@ -112,6 +146,7 @@ void PassList::forgetResults() {
     learn_.clear();
     for (Pass& pass : passes) {
         pass.run = nullptr;
+        pass.heldNow = nullptr;
         pass.result = nullptr;
     }
 }

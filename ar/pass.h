@@ -16,14 +16,14 @@
 #include <vector>
 
 #include "numeric/check.h"
+#include "numeric/progress.h"
 #include "raster/profile.h"
 
 namespace etalon {
 
 // What a running pass has beside its needs.
 struct PassContext {
-    const Profile& profile;                // what it computes with: Pass::profile
-    std::function<void(double)> progress;  // takes the part that is done; any thread, one at a time
+    const Profile& profile;  // what it computes with: Pass::profile
 };
 
 // What numbers a pass computes with.
@@ -36,18 +36,31 @@ enum class PassNumbers : uint8_t {
     vertexDepth,  // the profile's vertex arithmetic, its depth format and its subpixels
 };
 
+// What a result holds.
+struct HeldMemory {
+    uint64_t planes_bytes = 0;  // images that the plan knows the size of, and what is kept per sample
+    uint64_t lists_bytes = 0;   // meshes, triangles, lights, images of files: known when the pass has run
+    uint64_t all_bytes() const { return planes_bytes + lists_bytes; }
+};
+// Numbers and texts do not count. Of the results of a scene's passes: ar/held_memory.h.
+template <class T>
+requires(std::is_arithmetic_v<T> || std::is_same_v<T, std::string>) HeldMemory heldMemory(const T&) {
+    return {};
+}
+
 // What the plan says of a pass before it decides.
 struct PassText {
     std::string name;      // unique in a plan
     std::string why;       // it runs; empty: the passes that read its result
     std::string nothing;   // it cannot show anything, why; empty: it may
-    std::string unneeded;  // no pass that runs needs it
+    std::string unneeded;  // no pass that runs needs it, why; empty: the passes that would read it do not run
     // The decision assumes what is not known yet: "visibility", "environment light"; empty: it does not.
     std::string dependsOn;
     PassNumbers numbers = PassNumbers::none;
-    uint64_t memory_bytes = 0;  // of its result and of what it works in, at most
-    bool isRoot = false;        // needed by who asks for the plan
-    bool isLookedUp = false;    // its memory is that of maps and masks
+    // A bound on HeldMemory::planes_bytes of its result, with images that it works in.
+    uint64_t memory_bytes = 0;
+    bool isRoot = false;      // needed by who asks for the plan
+    bool isLookedUp = false;  // its memory is that of maps and masks
 };
 
 struct Pass {
@@ -62,6 +75,8 @@ struct Pass {
     std::string dependsOn;  // the pass whose result may still decide that it does not run; empty: none
     bool isDone = false;
     double seconds = 0;  // that it ran
+    HeldMemory held;     // by its result, when it has run
+    std::function<HeldMemory()> heldNow;
 
     const std::string& name() const { return text.name; }
     uint64_t memory_bytes() const { return text.memory_bytes; }
@@ -83,6 +98,16 @@ class Result {
     std::shared_ptr<T> value_;
 };
 
+// What a pass is given, for as long as the plan lives.
+template <class T>
+std::reference_wrapper<const T> lent(const T& value) {
+    return value;
+}
+template <class T>
+std::vector<const T*> lent(const std::vector<const T*>& values) {
+    return values;
+}
+
 // Passes in the order of their needs.
 class PassList {
   public:
@@ -101,6 +126,7 @@ class PassList {
         pass.run = [value, run = std::move(run), ... from = needs](const PassContext& context) {
             *value = run(context, argument(from)...);
         };
+        pass.heldNow = [held = value.get()] { return heldMemory(*held); };
         pass.result = value;
         passes.push_back(std::move(pass));
         sortNeeds(passes.back());
@@ -128,8 +154,9 @@ class PassList {
     // Which passes run: those that can show something and that a root, or a pass that runs, needs. everything:
     // all. Passes that are done stay as they are.
     void decide(bool everything);
-    // Runs pass i, if it runs, and has what waits for it learn; that may replace the passes behind it.
-    void run(size_t i, const std::function<void(double)>& progress);
+    // Runs pass i, if it runs, and has what waits for it learn; that may replace the passes behind it. progress may be
+    // empty.
+    void run(size_t i, const ProgressScope::Report& progress);
 
     const Pass* find(std::string_view name) const;
     // Of the passes that run, together.

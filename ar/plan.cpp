@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "ar/held_memory.h"
 #include "ar/showing.h"
 #include "ar/surface_builder.h"
 #include "numeric/text.h"
@@ -50,25 +51,11 @@ class Planner : public std::enable_shared_from_this<Planner> {
     using Terms = std::vector<Result<ShadeTerm>>;
     using Occlusion = std::vector<Result<SurfaceOcclusion>>;
 
-    // Images are sampled with their sizes as numbers of the arithmetic, of the profile's fragments mostly.
-    void requireSampling(const Profile& profile, const Arithmetic& arithmetic, const char* what, int line,
-                         int width, int height) const {
-        if (!arithmetic.format) return;
-        for (const int size : {width, height})
-            if (!holds(*arithmetic.format, size))
-                throw InputError(formatText(
-                    "{}: {} of {}x{} texels cannot be sampled in the profile {}: its format holds no {}",
-                    where(scene_, line), what, width, height, profile.name, size));
-    }
-    void requireSampling(const Profile& profile, const char* what, int line, int width, int height) const {
-        requireSampling(profile, profile.fragment, what, line, width, height);
-    }
     void requireSampling(const Profile& profile, const Arithmetic& arithmetic,
                          const EnvironmentImage& of) const {
         const Image<float>& latLong = of.radiance.latLong;
-        if (!latLong.empty())
-            requireSampling(profile, arithmetic, "an environment", scene_.environment.line, latLong.width(),
-                            latLong.height());
+        etalon::requireSampling(scene_, profile, arithmetic, "an environment", scene_.environment.line,
+                                latLong.width(), latLong.height());
     }
 
     bool asked(std::string_view output) const {
@@ -80,8 +67,6 @@ class Planner : public std::enable_shared_from_this<Planner> {
     bool environmentCasts() const {
         return showing_.environmentHasLights() && scene_.environment.shadow.method != ShadowMethod::none;
     }
-    // An output shows shadows, wherever the scene is lit.
-    bool shadowsAsked() const { return asked("shadow") || (environmentAsked() && environmentCasts()); }
     bool isShaded(std::string_view component) const { return asked(component) || beautyAsked(); }
     uint64_t pixels() const {
         return static_cast<uint64_t>(scene_.camera.width) * static_cast<uint64_t>(scene_.camera.height);
@@ -90,7 +75,7 @@ class Planner : public std::enable_shared_from_this<Planner> {
 
     // The text of a pass that shows nothing for the reason given, if any. Showing's assumptions up to here are the
     // decision's.
-    PassText textOf(std::string name, std::string why, std::string nothing, std::string unneeded,
+    PassText textOf(std::string name, std::string why, std::string nothing, std::string unneeded = "",
                     PassNumbers numbers = PassNumbers::none, uint64_t memory_bytes = 0) {
         const bool assumes = showing_.takeAssumption();
         return {std::move(name),
@@ -158,9 +143,7 @@ class Planner : public std::enable_shared_from_this<Planner> {
     void addEnvironment(PassList& list) {
         const bool isFile = scene_.environment.kind == EnvironmentKind::file;
         results_->environmentImage =
-            add(list,
-                textOf("environment image", "", isFile ? "" : "the environment is not an image",
-                       "neither the background nor a mirror shows it, and it lights nothing"),
+            add(list, textOf("environment image", "", isFile ? "" : "the environment is not an image"),
                 EnvironmentImage{settings_.environment, {}}, [this, isFile](const PassContext&) {
                     EnvironmentImage image{settings_.environment, {}};
                     if (isFile)
@@ -176,13 +159,17 @@ class Planner : public std::enable_shared_from_this<Planner> {
                 method == EnvironmentLightMethod::none ? "it lights no surfaces"
                 : showing_.environmentIsBlack()        ? "the environment is black"
                                                        : "",
-                "neither diffuse nor specular runs",
-                method == EnvironmentLightMethod::dominant ? PassNumbers::doubles : PassNumbers::environment),
+                "",
+                method == EnvironmentLightMethod::dominant ? PassNumbers::doubles : PassNumbers::environment,
+                method == EnvironmentLightMethod::map || method == EnvironmentLightMethod::blurred
+                    ? kFacesPerCube * squared(scene_.environment.mapSize) * 3 * kBytesPerFloat
+                    : 0),
             EnvironmentIllumination{},
             [this, method](const PassContext& context, const EnvironmentImage& image) {
                 if (method == EnvironmentLightMethod::map || method == EnvironmentLightMethod::blurred)
-                    requireSampling(context.profile, "a map of irradiance", scene_.environment.line,
-                                    scene_.environment.mapSize, scene_.environment.mapSize);
+                    etalon::requireSampling(scene_, context.profile, context.profile.fragment,
+                                            "a map of irradiance", scene_.environment.line,
+                                            scene_.environment.mapSize, scene_.environment.mapSize);
                 if (method == EnvironmentLightMethod::blurred)
                     requireSampling(context.profile, context.profile.environment, image);
                 return environmentIllumination(scene_.environment, image.radiance, context.profile,
@@ -233,8 +220,7 @@ class Planner : public std::enable_shared_from_this<Planner> {
         lights_ = add(
             list,
             textOf("lights", why,
-                   shows.empty() && !showing_.environmentHasLights() ? "no lights in the scene" : "",
-                   "neither diffuse nor specular runs"),
+                   shows.empty() && !showing_.environmentHasLights() ? "no lights in the scene" : ""),
             SceneLights{},
             [this, shows](const PassContext&,
                           const std::vector<const EnvironmentIllumination*>& environment) {
@@ -267,43 +253,52 @@ class Planner : public std::enable_shared_from_this<Planner> {
             if (!facts_.casters->empty()) return;
         }
         // Those that are not known yet, or that there are none.
-        const int asked = environment.shadowShare > 0 ? kMaxShadowLights : environment.shadowLights;
+        const int most = environment.shadowShare > 0 ? kMaxShadowLights : environment.shadowLights;
         const int lights = environment.lighting == EnvironmentLightMethod::lights
                                ? environment.lightCount
                                : DominantLightSearch{}.maxLights;
-        PassText text =
-            textOf("shadows of environment lights", "its lights are known once it is read",
-                   !facts_.casters               ? ""
-                   : environment.shadowShare > 0 ? "no light has so large a share of its energy"
-                                                 : "it has no lights",
-                   unneededShadow(), PassNumbers::fragment,
-                   static_cast<uint64_t>(std::min(asked, lights)) * shadowMemory(environment.shadow, true));
+        PassText text = textOf("shadows of environment lights", "its lights are known once it is read",
+                               !facts_.casters               ? ""
+                               : environment.shadowShare > 0 ? "no light has so large a share of its energy"
+                                                             : "it has no lights",
+                               "", PassNumbers::fragment,
+                               static_cast<uint64_t>(std::min(most, lights)) *
+                                   shadowMemory(environment.shadow, true, planarReceivers()));
         text.dependsOn = kEnvironmentLight;
         text.isLookedUp = true;
         shadows_.push_back(add(
             list, std::move(text), CastShadow{},
             [](const PassContext&, const SceneLights&) { return CastShadow{}; }, *lights_));
+        if (environment.shadow.method != ShadowMethod::map) return;
+        // Their maps may be an output, for which the lights are found.
+        const std::string& nothing = list.passes.back().text.nothing;
+        if (nothing.empty())
+            mapFiles_.emplace_back(LightId{LightId::Of::environment, 0}, shadows_.back());
+        else if (asked("shadow_map"))
+            notMade_.push_back("no shadow map of the environment is made: " + nothing);
     }
-    std::string unneededShadow() const {
-        return scene_.render.perVertex ? "the scene is lit per vertex" : "neither diffuse nor specular runs";
+    size_t planarReceivers() const {
+        const auto known = showing_.planarReceivers();
+        return known ? known->size() : showing_.objects().size();
     }
     void addShadow(PassList& list, LightId id, const SurfaceLight& source, const LightShadow& shadow,
                    bool isBlack, const std::string& about) {
         casting_.push_back(id);
+        const bool isDirectional = source.kind == LightKind::directional;
         // Where the shadow itself is shown, also a black light has one.
         const bool isMapOutput = asked("shadow_map") && shadow.method == ShadowMethod::map;
         const bool isOutput = asked("shadow") || isMapOutput;
         const std::optional<ShadowFit> fit = showing_.fitOf(source, shadow);
-        const std::string nothing =
-            isBlack && !isOutput ? "the light is black" : showing_.whyNoShadow(source, shadow, fit, isOutput);
+        const std::string nothing = isBlack && !isOutput
+                                        ? "the light is black, and no output shows its shadow"
+                                        : showing_.whyNoShadow(source, shadow, fit, isOutput);
         std::string why = "objects may stand in the light's way";
         if (fit) why = "cast by " + showing_.namesOf(fit->casters);
         if (const auto planes = showing_.planarReceivers(); planes && shadow.method == ShadowMethod::planar)
             why = "may fall on " + showing_.namesOf(*planes);
-        PassText text =
-            textOf(formatText("{} of {}", passNameOf(shadow.method), nameOf(id)), about + why,
-                   nothing.empty() ? "" : about + nothing, unneededShadow(), PassNumbers::fragment,
-                   shadowMemory(shadow, source.kind == LightKind::directional));
+        PassText text = textOf(formatText("{} of {}", passNameOf(shadow.method), nameOf(id)), about + why,
+                               nothing.empty() ? "" : about + nothing, "", PassNumbers::fragment,
+                               shadowMemory(shadow, isDirectional, planarReceivers()));
         if (isMapOutput && !nothing.empty())
             notMade_.push_back(formatText("{} is not made: {}", text.name, nothing));
         if (shadow.method == ShadowMethod::volume) text.numbers = PassNumbers::none;
@@ -321,7 +316,7 @@ class Planner : public std::enable_shared_from_this<Planner> {
                     return castByMap(settings_, context, of, lights, id, fit.value_or(ShadowFit{}), map,
                                      isMapOutput);
                 });
-                if (isMapOutput && nothing.empty()) mapFiles_.emplace_back(id, shadows_.back());
+                if (nothing.empty()) mapFiles_.emplace_back(id, shadows_.back());
                 break;
             case ShadowMethod::volume:
                 addOf([id, fit](const PassContext&, const Geometry&, const SceneLights& lights) {
@@ -380,8 +375,7 @@ class Planner : public std::enable_shared_from_this<Planner> {
             const Result<CubeRender> cube = add(
                 list,
                 textOf("cube map of " + showing_.objects()[i].name, "a visible mirror reflects the scene",
-                       nothing, "the mirror pass does not run", PassNumbers::fragment,
-                       texels * 4 * kBytesPerFloat),
+                       nothing, "", PassNumbers::fragment, texels * 4 * kBytesPerFloat),
                 CubeRender{},
                 [this, i, hasOcclusion](const PassContext& context, const Geometry& of,
                                         const SceneLights& lights, const EnvironmentImage& radiance,
@@ -390,7 +384,8 @@ class Planner : public std::enable_shared_from_this<Planner> {
                                         const std::vector<const CastShadow*>& shadows) {
                     static const std::optional<CubeMap<float>> none;
                     const int size = scene_.meshes[showing_.objects()[i].index].cubeSize;
-                    requireSampling(context.profile, "a cube map", 0, size, size);
+                    etalon::requireSampling(scene_, context.profile, context.profile.fragment, "a cube map",
+                                            0, size, size);
                     return renderObjectCube(settings_, context, i, hasOcclusion, of, lights, radiance,
                                             only(environment), sky.empty() ? none : *sky.front(), shadows);
                 },
@@ -398,10 +393,9 @@ class Planner : public std::enable_shared_from_this<Planner> {
                 environmentCubeIf(showing_.cubeSeesMirror(i)), shadows_);
             list.passes.back().text.isLookedUp = true;
             if (nothing.empty() || everything_) cubes_.emplace_back(i, cube);
-            if (!asked("cube_map")) continue;
             if (nothing.empty())
                 cubeFiles_.emplace_back(i, cube);
-            else
+            else if (asked("cube_map"))
                 notMade_.push_back(
                     formatText("cube map of {} is not made: {}", showing_.objects()[i].name, nothing));
         }
@@ -420,7 +414,7 @@ class Planner : public std::enable_shared_from_this<Planner> {
             constexpr uint64_t kBytesPerPoint = 256;
             const Result<SurfaceOcclusion> found = add(
                 list,
-                textOf(name, why, nothing, "nothing that runs is lit from everywhere", PassNumbers::doubles,
+                textOf(name, why, nothing, "", PassNumbers::doubles,
                        squared(render.occlusionMapSize) * kBytesPerSample + samples() * kBytesPerPoint),
                 SurfaceOcclusion{},
                 [this, ofVertices](const PassContext& context, const Geometry& of,
@@ -448,9 +442,7 @@ class Planner : public std::enable_shared_from_this<Planner> {
         const bool hasSurroundings =
             showing_.environmentIsDiffuse() || !isBlack(scene_.ambient) || everything_;
         vertices_.push_back(add(
-            list,
-            textOf("vertex lighting", "the scene is lit per vertex", "", "neither diffuse nor specular runs",
-                   PassNumbers::vertex),
+            list, textOf("vertex lighting", "the scene is lit per vertex", "", "", PassNumbers::vertex),
             std::vector<VertexRadiance>{},
             [this](const PassContext& context, const Geometry& of, const VisibleView& visible,
                    const SceneLights& lights, const std::vector<const EnvironmentIllumination*>& environment,
@@ -466,25 +458,17 @@ class Planner : public std::enable_shared_from_this<Planner> {
     // What stands between the lights and what the camera sees.
     void addViewShadows(PassList& list) {
         viewShadows_.clear();
-        if (shadows_.empty() || (scene_.render.perVertex && !shadowsAsked())) return;
-        uint64_t volumes = 0;
+        if (shadows_.empty()) return;
         std::string nothing = "no light that shows casts shadows on what is visible";
         for (const Result<CastShadow>& shadow : shadows_) {
             const PassText& text = list.passes[shadow.pass()].text;
             if (text.nothing.empty()) nothing.clear();
         }
-        for (const SceneLight& light : scene_.lights)
-            volumes += light.shadow.method == ShadowMethod::volume ? 1 : 0;
-        if (scene_.environment.shadow.method == ShadowMethod::volume)
-            volumes += static_cast<uint64_t>(std::min(
-                scene_.environment.shadowShare > 0 ? kMaxShadowLights : scene_.environment.shadowLights,
-                scene_.environment.lightCount));
-        // The depths of the view, and a mask for each light.
-        const uint64_t bytes = volumes > 0 ? samples() * (kBytesPerSample + sizeof(uint32_t) + volumes) : 0;
         viewShadows_.push_back(add(
             list,
-            textOf("shadows in view", "", nothing, "neither diffuse nor specular runs",
-                   PassNumbers::vertexDepth, bytes),
+            textOf("shadows in view", "", nothing,
+                   scene_.render.perVertex ? "the scene is lit per vertex, and no output shows shadows" : "",
+                   PassNumbers::vertexDepth, volumeMemory(scene_, samples())),
             ViewShadows{},
             [this](const PassContext& context, const Geometry& of, const SceneLights& lights,
                    const std::vector<const CastShadow*>& shadows) {
@@ -497,15 +481,6 @@ class Planner : public std::enable_shared_from_this<Planner> {
     using InView = std::vector<Result<ViewShadows>>;
     InView viewShadowsIf(bool condition) const { return condition ? viewShadows_ : InView{}; }
 
-    // A result for as long as the plan lives, or several.
-    template <class T>
-    static std::reference_wrapper<const T> lent(const T& value) {
-        return value;
-    }
-    template <class T>
-    static std::vector<const T*> lent(const std::vector<const T*>& values) {
-        return values;
-    }
     // Of a pass that is black where all of these are: whether all that may show assume that something is visible.
     template <class T>
     static std::string dependenceOf(const PassList& list, const std::vector<Result<T>>& parts) {
@@ -528,7 +503,10 @@ class Planner : public std::enable_shared_from_this<Planner> {
                    isOutput      ? "output asked for"
                    : isComponent ? "part of the beauty"
                                  : "the PNG shows it",
-                   nothing, isComponent ? "no output shows it" : "not an output", PassNumbers::fragment),
+                   nothing,
+                   isComponent || output == ShadeOutput::beauty ? "neither an output nor a PNG shows it"
+                                                                : "not an output",
+                   PassNumbers::fragment),
             ShadeTerm{},
             [output, isWanted, isComponent, addTo](const PassContext&, const auto&... values) {
                 return ShadeTerm{[=, ... of = lent(values)](ShadeJob& job) {
@@ -676,8 +654,9 @@ class Planner : public std::enable_shared_from_this<Planner> {
         for (const Result<ShadeTerm>& term : terms_) floats += channelsOf(list.passes[term.pass()].name());
         results_->shading = add(
             list,
-            textOf("shading", "", hasTerms_ ? "" : "all that it would show is black", "no output shows it",
-                   PassNumbers::fragment, pixels() * floats * kBytesPerFloat),
+            textOf("shading", "", hasTerms_ || terms_.empty() ? "" : "all that it would show is black",
+                   "neither an output nor a PNG shows it", PassNumbers::fragment,
+                   pixels() * floats * kBytesPerFloat),
             Shading{},
             [this](const PassContext& context, const Geometry& of, const VisibleView& visible,
                    const std::vector<const ShadeTerm*>& terms) {
@@ -738,25 +717,41 @@ class Planner : public std::enable_shared_from_this<Planner> {
 
     // Outputs that are files of their own.
     void addFiles(PassList& list) {
-        const bool isAsked = asked("cube_map") || asked("shadow_map");
-        PassText text = textOf("files beside the image", "outputs that are files of their own", "",
-                               "no output is a file of its own");
-        text.isRoot = isAsked;
+        const auto textOfFiles = [&](const char* output, uint64_t bytes) {
+            PassText text = textOf(output, "output asked for", "", "not an output", PassNumbers::none, bytes);
+            text.isRoot = asked(output);
+            return text;
+        };
         std::vector<uint32_t> instances;
         std::vector<LightId> lights;
         std::vector<Result<CubeRender>> cubes;
         std::vector<Result<CastShadow>> maps;
-        for (const auto& [instance, cube] : cubeFiles_) instances.push_back(instance), cubes.push_back(cube);
-        for (const auto& [light, map] : mapFiles_) lights.push_back(light), maps.push_back(map);
-        results_->files = add(
-            list, std::move(text), OutputFiles{},
-            [this, instances, lights, notMade = notMade_](const PassContext& context, const Geometry& of,
-                                                          const std::vector<const CubeRender*>& cubeMaps,
-                                                          const std::vector<const CastShadow*>& shadows) {
-                return OutputFiles{filesOf(settings_, context, of, instances, cubeMaps, lights, shadows),
-                                   notMade};
+        uint64_t cube_bytes = 0, map_bytes = 0;
+        for (const auto& [instance, cube] : cubeFiles_) {
+            cubes.push_back(cube);
+            if (!asked("cube_map")) continue;
+            instances.push_back(instance);
+            cube_bytes += list.passes[cube.pass()].memory_bytes();
+        }
+        // The texels of a file are a part of what the map's pass holds.
+        for (const auto& [light, map] : mapFiles_) {
+            lights.push_back(light), maps.push_back(map);
+            map_bytes += asked("shadow_map") ? list.passes[map.pass()].memory_bytes() : 0;
+        }
+        results_->cubeFiles = add(
+            list, textOfFiles("cube_map", cube_bytes), std::vector<OutputFile>{},
+            [this, instances](const PassContext& context, const Geometry& of,
+                              const std::vector<const CubeRender*>& rendered) {
+                return cubeMapFiles(settings_, context, of, instances, rendered);
             },
-            geometry(), cubes, maps);
+            geometry(), cubes);
+        results_->mapFiles = add(
+            list, textOfFiles("shadow_map", map_bytes), std::vector<OutputFile>{},
+            [this, lights](const PassContext& context, const std::vector<const CastShadow*>& shadows) {
+                return shadowMapFiles(settings_, context, lights, shadows);
+            },
+            maps);
+        results_->notMade = notMade_;
     }
 
     const Scene& scene_;

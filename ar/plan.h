@@ -31,11 +31,12 @@ struct PlanRequest {
     bool png = false;                  // a tone mapped image is written
 };
 
-// How far a render is: before each pass, and while one runs. pass: its number among `passes` of the plan as it is
-// now; part: of it that is done.
+// How far a render is: before each pass (step 0), and while one runs. pass: its number among `passes` of the plan as it
+// is now; step, part: of it (numeric/progress.h).
 struct RenderProgress {
     const Plan* plan = nullptr;
     size_t pass = 0;
+    int step = 0;
     double part = 0;
 };
 
@@ -58,7 +59,8 @@ struct PlanResults {
     std::optional<Result<EnvironmentImage>> environmentImage;
     std::optional<Result<Shading>> shading;
     std::optional<Result<Frame>> frame;
-    std::optional<Result<OutputFiles>> files;
+    std::optional<Result<std::vector<OutputFile>>> cubeFiles, mapFiles;
+    std::vector<std::string> notMade;  // of these files: warnings
     std::optional<Result<Image<uint8_t>>> toned;
 };
 
@@ -74,8 +76,9 @@ std::vector<std::string> namesOfNeeds(const Plan& plan, const Pass& pass);
 
 // One line for each pass, then the memory.
 std::string planText(const Plan& plan);
-// Per pass: name, runs, reason, depends_on (or null), needs, arithmetic (null: it does not compute), memory_bytes, and
-// the seconds that it took (null: it has not run).
+// Per pass: name, runs, reason, depends_on (or null), needs, arithmetic (null: it does not compute), memory_bytes (at
+// most, of the images that it makes and works in), and of one that has run (else null) result_bytes, all that its result
+// held, and the seconds that it took.
 Json planPassesJson(const Plan& plan);
 std::string planJson(const Plan& plan);
 // Graphviz: an arrow from a pass to each pass that reads its result; passes that do not run are dashed.

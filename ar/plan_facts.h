@@ -38,11 +38,18 @@ VisibilityFacts visibilityFacts(const VisibleScene& visible, size_t objects);
 inline constexpr int kFacesPerCube = 6;
 inline constexpr uint64_t kBytesPerSample = 4 + 4 + 1;  // depth, id, stencil
 inline uint64_t squared(int size) { return static_cast<uint64_t>(size) * static_cast<uint64_t>(size); }
-// Of the images that a light's shadows are looked up in, and of what they are drawn into, in bytes.
-uint64_t shadowMemory(const LightShadow& shadow, bool isDirectional);
+// Of the images that a light's shadows are looked up in, and of what they are drawn into, in bytes, at most. receivers:
+// the objects that planar shadows may fall on.
+uint64_t shadowMemory(const LightShadow& shadow, bool isDirectional, size_t receivers);
+// Of the shadow volumes of a view: its depths, and a mask for each light.
+uint64_t volumeMemory(const Scene& scene, uint64_t samples);
+// Of a shadow map as it is kept, in texels.
+uint64_t shadowMapTexels(const ShadowMapSettings& map, bool isDirectional);
 
-// Whether the whole number n > 0 is a number of the format.
-bool holds(const Format& format, int n);
+// Images are sampled with their sizes as numbers of the arithmetic, of the profile's fragments mostly: InputError for one
+// that it does not hold. An empty image is none.
+void requireSampling(const Scene& scene, const Profile& profile, const Arithmetic& arithmetic,
+                     const char* what, int line, int width, int height);
 
 // Which of the environment's lights cast shadows.
 std::vector<EnvironmentCaster> castersOf(const Environment& environment,

@@ -24,7 +24,7 @@ std::string planText(const Plan& plan) {
         text += formatText("{}  {:<{}}  {}{}\n", pass.runs ? "run " : "skip", printable(pass.name()), widest,
                            printable(pass.reason),
                            pass.dependsOn.empty() ? "" : formatText(" (depends on {})", pass.dependsOn));
-    text += formatText("memory: {:.1f} MiB at most for targets and images\n",
+    text += formatText("memory: at most {:.1f} MiB for targets, maps and images, not counting files\n",
                        static_cast<double>(plan.memory_bytes()) / (1 << 20));
     return text;
 }
@@ -40,6 +40,7 @@ Json planPassesJson(const Plan& plan) {
                        {"needs", namesOfNeeds(plan, pass)},
                        {"arithmetic", arithmetic.empty() ? Json() : Json(arithmetic)},
                        {"memory_bytes", pass.memory_bytes()},
+                       {"result_bytes", pass.runs && pass.isDone ? Json(pass.held.all_bytes()) : Json()},
                        {"seconds", pass.runs && pass.isDone ? Json(pass.seconds) : Json()}});
     }
     return passes;

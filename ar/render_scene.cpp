@@ -34,15 +34,16 @@ void requireMemory(const Scene& scene, const RenderOptions& options, const Plan&
 // Runs the plan from its beginning up to the pass of this number, which may have grown by then.
 void runPasses(Plan& plan, const RenderOptions& options, size_t end) {
     for (size_t i = 0; i < std::min(end, plan.passes.size()); i++) {
-        const auto progress = [&, i](double part) {
-            if (options.progress) options.progress({&plan, i, part});
-        };
-        if (plan.passes[i].runs) progress(0);
+        ProgressScope::Report progress;
+        if (options.progress)
+            progress = [&, i](int step, double part) { options.progress({&plan, i, step, part}); };
+        if (progress && plan.passes[i].runs) progress(0, 0);
         plan.run(i, progress);
     }
 }
 
-void append(std::vector<std::string>& to, const std::vector<std::string>& from) {
+template <class T>
+void append(std::vector<T>& to, const std::vector<T>& from) {
     to.insert(to.end(), from.begin(), from.end());
 }
 
@@ -58,9 +59,10 @@ RenderResult renderScene(const Scene& scene, const RenderOptions& options) {
     const PlanResults& of = *plan.results;
     append(result.warnings, plan.value(*of.geometry).warnings);
     append(result.warnings, plan.value(*of.environmentImage).warnings);
-    append(result.warnings, plan.value(*of.files).warnings);
+    append(result.warnings, of.notMade);
     result.frame = plan.value(*of.frame);
-    result.files = plan.value(*of.files).files;
+    append(result.files, plan.value(*of.cubeFiles));
+    append(result.files, plan.value(*of.mapFiles));
     const std::vector<std::string>& asked =
         options.request.outputs.empty() ? scene.output.images : options.request.outputs;
     const auto isShadow = [](const Channel& channel) { return channel.name.starts_with("shadow."); };

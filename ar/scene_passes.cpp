@@ -166,6 +166,9 @@ VisibleView findVisibleInView(const SceneSettings& settings, const PassContext& 
     VisibleView visible;
     visible.scene.emplace(findVisible(geometry.surfaces, geometry.placed, settings.view, context.profile,
                                       settings.scene->render.samples, settings.raster));
+    // No other frame is drawn with it.
+    visible.scene->target.scratch = RasterScratchHolder();
+    visible.scene->vertices.clear();
     return visible;
 }
 
@@ -207,12 +210,15 @@ CastShadow castByMap(const SceneSettings& settings, const PassContext& context, 
     CastShadow cast;
     if (isKept) cast.map = std::make_shared<const ShadowMap>(drawn);
     maps->set(lights.numberOf(light), std::move(drawn), context.profile, settings.raster.threads);
+    cast.memory_bytes = maps->memory_bytes();
     cast.visibility = maps;
     return cast;
 }
 
 CastShadow castByVolumes(const SceneLights& lights, const LightId& light, std::vector<uint32_t> casters) {
-    return {nullptr, CastShadow::Volume{lights.numberOf(light), std::move(casters)}, {}, nullptr};
+    CastShadow cast;
+    cast.volume = {lights.numberOf(light), std::move(casters)};
+    return cast;
 }
 
 CastShadow castOnPlanes(const SceneSettings& settings, const PassContext& context, const Geometry& geometry,
@@ -226,7 +232,10 @@ CastShadow castOnPlanes(const SceneSettings& settings, const PassContext& contex
                         settings.raster);
     CastShadow cast;
     const std::vector<SceneObject> objects = sceneObjects(*settings.scene);
-    for (const PlanarVisibility::Entry& entry : entries) cast.fallsOn.push_back(objects[entry.instance].name);
+    for (const PlanarVisibility::Entry& entry : entries) {
+        cast.fallsOn.push_back(objects[entry.instance].name);
+        cast.memory_bytes += entry.shadow.shadow.values().size_bytes();
+    }
     if (!entries.empty())
         cast.visibility = std::make_shared<PlanarVisibility>(std::move(entries), context.profile);
     return cast;
@@ -237,6 +246,7 @@ ViewShadows shadowsOfView(const SceneSettings& settings, const PassContext& cont
                           const View& view, int samples, uint32_t excluded) {
     JointVisibility::Ways ways;
     std::vector<std::vector<uint32_t>> casters;
+    uint64_t volumes_bytes = 0;
     for (const CastShadow* shadow : shadows) {
         if (shadow->visibility) ways.push_back(shadow->visibility);
         if (!shadow->volume) continue;
@@ -249,11 +259,13 @@ ViewShadows shadowsOfView(const SceneSettings& settings, const PassContext& cont
         options.samples = samples;
         options.excluded = excluded;
         options.casters = std::move(casters);
-        ways.push_back(std::make_shared<VolumeShadows>(geometry.surfaces, geometry.placed, view,
-                                                       context.profile, options, settings.raster));
+        const auto volumes = std::make_shared<VolumeShadows>(geometry.surfaces, geometry.placed, view,
+                                                             context.profile, options, settings.raster);
+        volumes_bytes = volumes->memory_bytes();
+        ways.push_back(volumes);
     }
     if (ways.empty()) return {};
-    return {std::make_shared<JointVisibility>(std::move(ways))};
+    return {std::make_shared<JointVisibility>(std::move(ways)), volumes_bytes};
 }
 
 SurfaceOcclusion occlusionInView(const SceneSettings& settings, const PassContext& context, bool ofVertices,
@@ -297,7 +309,6 @@ CubeRender renderObjectCube(const SceneSettings& settings, const PassContext& co
         request.occlusionOf = [&](const ShadeJob& face) {
             return fragmentOcclusion(face, occlusionOptions(settings));
         };
-    request.progress = context.progress;
     return renderCubeMap(geometry.surfaces, geometry.placed, request,
                          environmentCube ? &*environmentCube : nullptr, context.profile, settings.raster);
 }
@@ -308,7 +319,6 @@ Shading shadeView(const SceneSettings& settings, const PassContext& context, con
     std::ranges::fill(job.request.evaluated, false);
     for (const ShadeTerm* term : terms)
         if (term->addTo) term->addTo(job);
-    job.progress = context.progress;
     Shading shading;
     shading.images = shade(job, &shading.statistics);
     return shading;
@@ -338,14 +348,19 @@ Frame frameOf(const SceneSettings& settings, const PassContext& context,
     return frame;
 }
 
-std::vector<OutputFile> filesOf(const SceneSettings& settings, const PassContext& context,
-                                const Geometry& geometry, const std::vector<uint32_t>& instances,
-                                const std::vector<const CubeRender*>& cubes,
-                                const std::vector<LightId>& lights,
-                                const std::vector<const CastShadow*>& shadows) {
+std::vector<OutputFile> cubeMapFiles(const SceneSettings& settings, const PassContext& context,
+                                     const Geometry& geometry, const std::vector<uint32_t>& instances,
+                                     const std::vector<const CubeRender*>& cubes) {
     std::vector<OutputFile> files;
     for (size_t i = 0; i < instances.size(); i++)
         files.push_back(cubeMapFile(settings, context, instances[i], geometry, *cubes[i]));
+    return files;
+}
+
+std::vector<OutputFile> shadowMapFiles(const SceneSettings& settings, const PassContext& context,
+                                       const std::vector<LightId>& lights,
+                                       const std::vector<const CastShadow*>& shadows) {
+    std::vector<OutputFile> files;
     for (size_t i = 0; i < lights.size(); i++)
         if (shadows[i]->map && !shadows[i]->map->layers.empty())
             files.push_back(shadowMapFile(settings, context, lights[i], *shadows[i]->map));

@@ -77,11 +77,13 @@ struct CastShadow {
     std::optional<Volume> volume;
     std::vector<std::string> fallsOn;      // the objects that planar shadows fall on
     std::shared_ptr<const ShadowMap> map;  // what `visibility` looks up, where it is kept
+    uint64_t memory_bytes = 0;             // that `visibility` holds
 };
 
 // What stands in the way of the lights in one view; null: nothing.
 struct ViewShadows {
     std::shared_ptr<const LightVisibility> visibility;
+    uint64_t memory_bytes = 0;  // of the masks of volumes
 };
 
 // What surfaces see of their surroundings: at fragments, or at vertices. Both empty: everything.
@@ -110,10 +112,6 @@ struct OutputChannels {
 struct OutputFile {
     std::string name;
     Frame frame;
-};
-struct OutputFiles {
-    std::vector<OutputFile> files;
-    std::vector<std::string> warnings;  // of those that are not made
 };
 
 // What every pass of a scene runs with.
@@ -175,12 +173,13 @@ Frame frameOf(const SceneSettings& settings, const PassContext& context,
               const std::vector<std::string>& outputs, const std::vector<LightId>& casting,
               const std::vector<const OutputChannels*>& made, const Shading& shading);
 
-// The cube maps of instances, and the shadow maps of lights, as files. A map that is empty has none.
-std::vector<OutputFile> filesOf(const SceneSettings& settings, const PassContext& context,
-                                const Geometry& geometry, const std::vector<uint32_t>& instances,
-                                const std::vector<const CubeRender*>& cubes,
-                                const std::vector<LightId>& lights,
-                                const std::vector<const CastShadow*>& shadows);
+// The cube maps of instances, and the shadow maps of lights, as files. A map that is empty or not kept has none.
+std::vector<OutputFile> cubeMapFiles(const SceneSettings& settings, const PassContext& context,
+                                     const Geometry& geometry, const std::vector<uint32_t>& instances,
+                                     const std::vector<const CubeRender*>& cubes);
+std::vector<OutputFile> shadowMapFiles(const SceneSettings& settings, const PassContext& context,
+                                       const std::vector<LightId>& lights,
+                                       const std::vector<const CastShadow*>& shadows);
 
 // The tone mapped beauty as a PNG holds it.
 Image<uint8_t> toneMapped(const SceneSettings& settings, const Shading& shading);

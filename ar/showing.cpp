@@ -102,16 +102,18 @@ std::string Showing::whyMissing(const auto& hasPart, const auto& reflects, std::
 
 std::string Showing::whyBlack(ShadeOutput component) const {
     const auto whyUnlit = [&](bool byEnvironment, const auto& hasPart, const auto& reflects,
-                              std::string_view what, std::string_view reflectance) -> std::string {
-        if (lights_.empty() && !byEnvironment) return "no lights in the scene";
-        if (std::ranges::all_of(lights_, isBlackLight) && !byEnvironment) return "every light is black";
+                              std::string_view what, std::string_view reflectance,
+                              const char* unlitBy) -> std::string {
+        if (std::ranges::all_of(lights_, isBlackLight) && !byEnvironment)
+            return std::string(lights_.empty() ? "no lights in the scene" : "every light is black") +
+                   (environmentIsBlack() ? "" : unlitBy);
         const std::string missing = whyMissing(hasPart, reflects, what, reflectance);
         if (!missing.empty() || byEnvironment) return missing;
         for (size_t i = 0; i < objects_.size(); i++)
             if (reflects(materials_[i]) && isVisible(i))
                 for (const SurfaceLight& light : lights_)
                     if (!isBlackLight(light) && reaches(light, i)) return {};
-        return formatText("the lights are behind each {}", what);
+        return formatText("the lights are behind each {} that is visible", what);
     };
     const auto isDiffuse = [](const SurfaceMaterial& m) { return hasDiffusePart(m); };
     switch (component) {
@@ -120,11 +122,12 @@ std::string Showing::whyBlack(ShadeOutput component) const {
             return whyMissing(isDiffuse, reflectsDiffusely, "diffuse surface", "diffuse reflectance");
         case ShadeOutput::diffuse:
             return whyUnlit(environmentLights(), isDiffuse, reflectsDiffusely, "diffuse surface",
-                            "diffuse reflectance");
+                            "diffuse reflectance", ", and the environment lights no surfaces");
         case ShadeOutput::specular:
             return whyUnlit(
                 environmentHasLights(), [](const SurfaceMaterial& m) { return hasSpecularPart(m); },
-                reflectsSpecularly, "blinn_phong surface", "specular reflectance");
+                reflectsSpecularly, "blinn_phong surface", "specular reflectance",
+                ", and the environment is not cut into lights");
         case ShadeOutput::mirror: {
             const std::string missing = whyMissing([](const SurfaceMaterial& m) { return hasMirrorPart(m); },
                                                    mirrors, "mirror", "reflectance");
@@ -172,7 +175,8 @@ std::string Showing::whyNoOcclusion(bool ofVertices, bool ofAllSurfaces) const {
     const bool isRounded = ofVertices || profile_.fragment == Arithmetic::truth;
     if ((environmentIsDiffuse() || ofAllSurfaces) && isRounded) return {};
     return isOpen(marked, ofVertices ? vertexArithmetic(profile_) : profile_.fragment)
-               ? "nothing can occlude what is visible"
+               ? ofAllSurfaces ? "nothing can occlude what is visible"
+                               : "nothing can occlude the diffuse surfaces that are visible"
                : "";
 }
 std::string Showing::whyNothingVisible() const {
@@ -229,7 +233,7 @@ std::string Showing::whyNoShadow(const SurfaceLight& light, const LightShadow& s
         return "no surface that is visible reflects lights";
     bool isReached = isOutput;
     for (size_t i = 0; i < objects_.size() && !isReached; i++) isReached = receives[i] && reaches(light, i);
-    if (!isReached) return "the light is behind all that is visible";
+    if (!isReached) return "the light is behind all that is visible, and no output shows its shadow";
     if (fit && fit->casters.empty()) return "nothing stands between the light and what is visible";
     if (shadow.method != ShadowMethod::planar) return {};
     if (objects_.size() == 1) return "nothing stands between the light and what is visible";

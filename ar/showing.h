@@ -62,8 +62,8 @@ class Showing {
     std::optional<ShadowFit> fitOf(const SurfaceLight& light, const LightShadow& shadow) const;
     // The receivers that are planes; none: the geometry is not known.
     std::optional<std::vector<uint32_t>> planarReceivers() const;
-    // Why a light that is not black has no shadow. fit: that of maps and volumes. isOutput: what its shadow method finds is shown, and not
-    // only what the light loses by it.
+    // Why a light that is not black has no shadow. fit: that of maps and volumes. isOutput: what its shadow method
+    // finds is shown, and not only what the light loses by it.
     std::string whyNoShadow(const SurfaceLight& light, const LightShadow& shadow,
                             const std::optional<ShadowFit>& fit, bool isOutput) const;
 

@@ -15,6 +15,7 @@
 
 #include "files/image_io.h"
 #include "numeric/parallel.h"
+#include "numeric/progress.h"
 
 namespace etalon {
 namespace {
@@ -84,7 +85,11 @@ std::vector<std::byte> encodeExr(const Frame& frame, int threads) {
     {
         Imf::OutputFile file(stream, header, pool);
         file.setFrameBuffer(planes);
-        file.writePixels(frame.height);
+        // Some blocks for each helper at a time; the bytes are those of all at once.
+        const int rows = 4 * kRowsPerBlock * std::max(pool, 1);
+        ProgressLoop progress(static_cast<size_t>((frame.height - 1) / rows + 1));
+        for (int y = 0; y < frame.height; y += rows, progress.next())
+            file.writePixels(std::min(rows, frame.height - y));
     }
     return stream.take();
 }

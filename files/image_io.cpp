@@ -6,6 +6,7 @@
 #include <cstring>
 #include <fstream>
 #include <new>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -13,6 +14,7 @@
 
 #include "files/atomic_file.h"
 #include "files/image_module.h"
+#include "numeric/progress.h"
 #include "numeric/text.h"
 #include "raster/stored_sample.h"
 
@@ -159,8 +161,15 @@ bool describesEncoding(std::string_view name) {
 Frame readWhole(const std::filesystem::path& path) {
     checkFile(path);
     StoredImage stored;
+    constexpr size_t kRounds = 100;
+    std::optional<ProgressLoop> progress(kRounds);
+    size_t done = 0;
+    const auto report = [&](double part) {
+        for (; static_cast<double>(done) < kRounds * part; done++) progress->next();
+    };
     const std::string defect = imageModule().read(
-        path.string(), [&](const ImageHeader& header) { checkHeader(header, path); }, stored);
+        path.string(), [&](const ImageHeader& header) { checkHeader(header, path); }, report, stored);
+    progress.reset();
     if (!defect.empty()) fail(path, defect);
 
     const ImageHeader& header = stored.header;

@@ -40,7 +40,7 @@ ImageHeader headerOf(const OIIO::ImageSpec& spec) {
 }
 
 std::string readImage(const std::string& path, const std::function<void(const ImageHeader&)>& accept,
-                      StoredImage& image) {
+                      const std::function<void(double)>& progress, StoredImage& image) {
     OIIO::ImageSpec hints;
     hints.attribute("oiio:UnassociatedAlpha", 1);
     const auto input = OIIO::ImageInput::open(path, &hints);
@@ -57,7 +57,13 @@ std::string readImage(const std::string& path, const std::function<void(const Im
                          image.pixelBytes);
     // Some readers report success and leave an error behind (a truncated TIFF), others fail without one
     // (PFM).
-    const bool complete = input->read_image(0, 0, 0, spec.nchannels, TypeDesc::UNKNOWN, image.samples.data());
+    const auto report = [](void* to, float part) {
+        (*static_cast<const std::function<void(double)>*>(to))(double{part});
+        return false;  // go on
+    };
+    const bool complete = input->read_image(0, 0, 0, spec.nchannels, TypeDesc::UNKNOWN, image.samples.data(),
+                                            OIIO::AutoStride, OIIO::AutoStride, OIIO::AutoStride, report,
+                                            const_cast<std::function<void(double)>*>(&progress));
     const std::string error = firstLine(input->geterror());
     if (!error.empty()) return "truncated or damaged: " + error;
     return complete ? "" : "the file is truncated or damaged";

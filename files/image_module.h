@@ -40,9 +40,10 @@ struct StoredImage {
 // The module's functions. They throw nothing of their own but std::bad_alloc.
 struct ImageModule {
     // Opens a regular file of one image, calls `accept`, which throws to refuse it (it has seen no pixel and
-    // no memory has been taken for any), and reads it. Returns what is wrong with the file, or "".
+    // no memory has been taken for any), and reads it, calling `progress` with the part that is read. Returns what is
+    // wrong with the file, or "".
     std::string (*read)(const std::string& path, const std::function<void(const ImageHeader&)>& accept,
-                        StoredImage& image);
+                        const std::function<void(double)>& progress, StoredImage& image);
 
     // The bytes of an 8-bit PNG marked as sRGB from width * height pixels R, G, B. Returns what went wrong,
     // or "".

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "numeric/progress.h"
+
 namespace etalon {
 namespace {
 
@@ -174,6 +176,7 @@ Comparison compareFrames(const Frame& a, const Frame& b, int maxWorst) {
     const bool sameSize = a.width == b.width && a.height == b.height;
     for (const Channel& channel : b.channels)
         if (!a.find(channel.name)) result.onlyInB.push_back(channel.name);
+    ProgressLoop progress(a.channels.size());
     for (const Channel& channel : a.channels) {
         const Channel* other = b.find(channel.name);
         if (!other) {
@@ -188,6 +191,7 @@ Comparison compareFrames(const Frame& a, const Frame& b, int maxWorst) {
                 },
                 channel.values);
         }
+        progress.next();
     }
     return result;
 }

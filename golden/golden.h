@@ -70,6 +70,12 @@ std::vector<GoldenGroup> hashGroups(const Frame& frame);
 // Renders a case; the scene is at manifest.resolve(case.scene). Bad input is an InputError.
 using GoldenRenderer = std::function<Frame(const GoldenManifest&, const GoldenCase&)>;
 
+// How a program renders its cases, and under which version of the rules.
+struct GoldenSupport {
+    GoldenRenderer render;
+    std::string rulesVersion;
+};
+
 enum class GoldenVerdict {
     same,          // every bit is as accepted
     different,     // the render differs

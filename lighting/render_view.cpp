@@ -1,6 +1,7 @@
 #include "lighting/render_view.h"
 
 #include "lighting/cube_faces.h"
+#include "numeric/progress.h"
 
 namespace etalon {
 
@@ -85,6 +86,7 @@ CubeRender renderCubeMap(const SurfaceScene& scene, const std::vector<PlacedMesh
 
     CubeRender cube;
     VisibleScene visible{RenderTarget(request.size, request.size, formatOf(profile, 1)), {}, {}, {}};
+    ProgressLoop faces(kCubeFaces);
     for (int face = 0; face < kCubeFaces; face++) {
         const View view = cubeFaceView(static_cast<CubeFace>(face), request.size, request.centre,
                                        request.near_m, request.far_m);
@@ -106,7 +108,7 @@ CubeRender renderCubeMap(const SurfaceScene& scene, const std::vector<PlacedMesh
         ShadedImages images = shade(job);
         cube.radiance.faces[static_cast<size_t>(face)] = std::move(images[ShadeOutput::beauty]);
         cube.distance.faces[static_cast<size_t>(face)] = std::move(images[ShadeOutput::distance]);
-        if (request.progress) request.progress((face + 1.0) / kCubeFaces);
+        faces.next();
     }
     return cube;
 }

@@ -56,7 +56,6 @@ struct CubeRenderRequest {
     std::function<std::shared_ptr<const LightVisibility>(const View&)> visibilityOf;
     // Of the fragments of each face, from its job; empty: they see all of their surroundings.
     std::function<TileOcclusion(const ShadeJob&)> occlusionOf;
-    std::function<void(double)> progress;  // called with the part of the faces that is done
 };
 
 // Renders the six faces around a point in one call. Mirrors seen in them reflect the environment alone.

@@ -85,15 +85,12 @@ ShadedImages shade(const ShadeJob& job, ShadeStatistics* statistics) {
 
     std::mutex mutex;
     ShadeStatistics total;
-    size_t done = 0;
     forEachTile(job, [&](TileShader& shader, size_t number, const PixelRectangle& rectangle) {
         ShadeStatistics counts;
         shader.run(number, rectangle, images, counts);
         const std::lock_guard lock(mutex);
         total.surfaceFragments += counts.surfaceFragments;
         total.backgroundFragments += counts.backgroundFragments;
-        if (job.progress)
-            job.progress(static_cast<double>(++done) / static_cast<double>(tilesOf(job).count()));
     });
     if (statistics) *statistics = total;
     return images;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 
@@ -112,8 +111,6 @@ struct ShadeJob {
     bool everyPart = false;
     const Profile* profile = nullptr;
     int threads = 0, tileSize = 64;
-    // Called with the part of the tiles that is done, by the thread that has done one, one call at a time.
-    std::function<void(double)> progress;
 };
 
 // Of the image of an output.

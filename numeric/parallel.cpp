@@ -16,6 +16,7 @@
 #include "numeric/check.h"
 #include "numeric/emulated_format.h"
 #include "numeric/fp_environment.h"
+#include "numeric/progress.h"
 
 namespace etalon {
 namespace {
@@ -31,13 +32,16 @@ namespace {
 #endif
 
 // Nothing of another item shows in this one.
-void runItem(const std::function<void(size_t)>& body, size_t i) {
-    const EmulatedItemsScope items;
-    body(i);
+void runItem(const std::function<void(size_t)>& body, size_t i, ProgressLoop& progress) {
+    {
+        const EmulatedItemsScope items;
+        body(i);
+    }
+    progress.next();
 }
 
 #if defined(ETALON_PLAIN_THREADS)
-void runItems(size_t count, int threads, const std::function<void(size_t)>& body) {
+void runItems(size_t count, int threads, const std::function<void(size_t)>& body, ProgressLoop& progress) {
     std::atomic<size_t> next{0};
     std::mutex mutex;
     std::exception_ptr failure;
@@ -46,7 +50,7 @@ void runItems(size_t count, int threads, const std::function<void(size_t)>& body
         try {
             requireDefaultFpEnvironment();
             const EmulatedScope scope(format);
-            for (size_t i = next++; i < count; i = next++) runItem(body, i);
+            for (size_t i = next++; i < count; i = next++) runItem(body, i, progress);
         } catch (...) {
             const std::lock_guard lock(mutex);
             if (!failure) failure = std::current_exception();
@@ -59,7 +63,7 @@ void runItems(size_t count, int threads, const std::function<void(size_t)>& body
     if (failure) std::rethrow_exception(failure);
 }
 #else
-void runItems(size_t count, int threads, const std::function<void(size_t)>& body) {
+void runItems(size_t count, int threads, const std::function<void(size_t)>& body, ProgressLoop& progress) {
     // More threads than the hardware has must be allowed explicitly. Never taken back: workers are slow to
     // come again.
     static std::mutex mutex;
@@ -79,7 +83,8 @@ void runItems(size_t count, int threads, const std::function<void(size_t)>& body
                           [&](const tbb::blocked_range<size_t>& range) {
                               requireDefaultFpEnvironment();
                               const EmulatedScope scope(format);
-                              for (size_t i = range.begin(); i != range.end(); i++) runItem(body, i);
+                              for (size_t i = range.begin(); i != range.end(); i++)
+                                  runItem(body, i, progress);
                           });
     });
 }
@@ -92,11 +97,12 @@ int hardwareThreads() { return std::max(1, static_cast<int>(std::thread::hardwar
 void parallelFor(size_t count, int threads, const std::function<void(size_t)>& body) {
     ETALON_CHECK(threads >= 0, "threads = {}", threads);
     requireDefaultFpEnvironment();
+    ProgressLoop progress(count);
     if (threads == 1 || count <= 1) {
-        for (size_t i = 0; i < count; i++) runItem(body, i);
+        for (size_t i = 0; i < count; i++) runItem(body, i, progress);
         return;
     }
-    runItems(count, threads == 0 ? hardwareThreads() : threads, body);
+    runItems(count, threads == 0 ? hardwareThreads() : threads, body, progress);
 }
 
 }  // namespace etalon

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "numeric/elementary.h"
+#include "numeric/progress.h"
 #include "numeric/sum.h"
 #include "probes/convert.h"
 #include "probes/texel_grid.h"
@@ -20,9 +21,10 @@ ProbeStatistics statisticsOf(const Probe& probe, int threads) {
     s.largest = -s.smallest;
     double smallestPositive = std::numeric_limits<double>::infinity();
     std::vector<double> weights, weighted[3];
+    ProgressLoop rows(static_cast<size_t>(probe.shape.layers()) * static_cast<size_t>(probe.shape.height));
     for (int layer = 0; layer < probe.shape.layers(); layer++) {
         const auto l = static_cast<size_t>(layer);
-        for (int y = 0; y < probe.shape.height; y++) {
+        for (int y = 0; y < probe.shape.height; y++, rows.next()) {
             for (int x = 0; x < probe.shape.width; x++) {
                 const double weight_sr = grid.solidAngle_sr(layer, x, y);
                 if (weight_sr == 0 || (!probe.valid.empty() && probe.valid[l].at(x, y) == 0)) continue;

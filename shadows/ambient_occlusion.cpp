@@ -7,6 +7,7 @@
 #include "numeric/check.h"
 #include "numeric/elementary.h"
 #include "numeric/parallel.h"
+#include "numeric/progress.h"
 #include "numeric/vectors.h"
 #include "shadows/occlusion_kernels.h"
 
@@ -254,7 +255,8 @@ std::vector<Occlusion> directionalOcclusion(std::span<const PlacedMesh> placed,
     const int size = options.mapSize;
     // A plane within a texel is at most half a diagonal from where the texel's centre shows it.
     const double texel_m = 2 * ball.radius_m / size, offset_m = 0.75 * texel_m;
-    for (int k = 0; k < options.directions && ball.radius_m > 0; k++) {
+    ProgressLoop directions(static_cast<size_t>(options.directions));
+    for (int k = 0; k < options.directions && ball.radius_m > 0; k++, directions.next()) {
         const glm::dvec3 towards = spiralDirection(k, options.directions);
         // Room for what is moved off the surface.
         const View view = ballView(towards, ball.centre, ball.radius_m * (1 + 2.0 / size), size);

@@ -18,6 +18,11 @@ class ShadowLookupOf final : public ShadowLookup {
   public:
     ShadowLookupOf(const ShadowMap& map, int fractionBits, int threads, WindowSearch search);
     void find(const LitPoints& points, std::span<double> visibility) const override;
+    uint64_t memory_bytes() const override {
+        uint64_t bytes = buffers_.texels.memory_bytes();
+        if constexpr (Number<T>::isNative) bytes += windows_ ? windows_->memory_bytes() : 0;
+        return bytes;
+    }
 
   private:
     using K = ShadowKernels<T>;

@@ -17,6 +17,7 @@ class ShadowLookup {
     // visibility[i]: the part of the light that reaches point i by the map's filter; 1 outside the map,
     // behind the light, for positions that are not numbers, and for points of no instance.
     virtual void find(const LitPoints& points, std::span<double> visibility) const = 0;
+    virtual uint64_t memory_bytes() const = 0;
 };
 
 // How pcf finds the lit texels of its windows with native numbers: side by side, in a faster arrangement

@@ -12,6 +12,7 @@
 #include "numeric/check.h"
 #include "numeric/door.h"
 #include "numeric/parallel.h"
+#include "numeric/progress.h"
 #include "raster/blur.h"
 #include "raster/fragments.h"
 #include "shadows/composition_kernel.h"
@@ -240,9 +241,11 @@ Image<uint32_t> countAll(const CountJob& job, const RasterOptions& raster) {
     inPart.clear = false;
     if (parts > 1) inPart.threads = 1;
     std::vector<Image<uint32_t>> counts(parts);
+    ProgressLoop progress(samples);
     parallelFor(parts, raster.threads, [&](size_t part) {
         SampleCounter counter(job, inPart);
-        for (size_t i = part * samples / parts; i < (part + 1) * samples / parts; i++) counter.count(i);
+        for (size_t i = part * samples / parts; i < (part + 1) * samples / parts; i++, progress.next())
+            counter.count(i);
         counts[part] = std::move(counter.counts);
     });
     Image<uint32_t>& sum = counts[0];

@@ -19,4 +19,10 @@ void ShadowMaps::set(size_t light, ShadowMap map, const Profile& profile, int th
     for (ShadowLayer& layer : entry.map->layers) layer = {};
 }
 
+uint64_t ShadowMaps::memory_bytes() const {
+    uint64_t bytes = 0;
+    for (const Entry& entry : entries_) bytes += entry.lookup ? entry.lookup->memory_bytes() : 0;
+    return bytes;
+}
+
 }  // namespace etalon

@@ -17,6 +17,9 @@ class ShadowMaps final : public LightVisibility {
     // The map of a light, looked up in the profile's fragment arithmetic with its fraction bits.
     void set(size_t light, ShadowMap map, const Profile& profile, int threads);
 
+    // That look-ups hold.
+    uint64_t memory_bytes() const;
+
     bool casts(size_t light) const override { return entries_[light].lookup != nullptr; }
     void find(size_t light, const LitPoints& points, std::span<double> visibility) const override {
         entries_[light].lookup->find(points, visibility);

@@ -31,6 +31,11 @@ class ShadowTexels {
     int width() const { return width_; }
     int pad() const { return pad_; }
     size_t layers() const { return layers_.size(); }
+    uint64_t memory_bytes() const {
+        uint64_t bytes = 0;
+        for (const auto& layer : layers_) bytes += layer.size() * sizeof(Stored);
+        return bytes;
+    }
     // Of the stored integers; 0: the texels are none.
     double levels() const { return levels_; }
     // What a reference is limited to: nothing is farther, and the texels outside are that far away.

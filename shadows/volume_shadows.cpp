@@ -5,6 +5,7 @@
 
 #include "numeric/check.h"
 #include "numeric/kernel_types.h"
+#include "numeric/progress.h"
 
 namespace etalon {
 namespace {
@@ -151,7 +152,8 @@ VolumeShadows::VolumeShadows(const SurfaceScene& scene, const std::vector<Placed
     std::vector<uint32_t> all(placed.size());
     std::iota(all.begin(), all.end(), 0u);
 
-    for (size_t l = 0; l < lights.size(); l++) {
+    ProgressLoop progress(lights.size());
+    for (size_t l = 0; l < lights.size(); l++, progress.next()) {
         const std::vector<uint32_t>& casters = options.casters ? (*options.casters)[l] : all;
         const LightSource light = lightSourceOf(lights[l]);
         std::vector<DrawnVolume> volumes(casters.size());
@@ -190,6 +192,12 @@ void VolumeShadows::find(size_t light, const LitPoints& points, std::span<double
         kernel.pointInstance = points.instance[i];
         visibility[i] = kernel.litPartOfSamples(samples);
     }
+}
+
+uint64_t VolumeShadows::memory_bytes() const {
+    uint64_t bytes = instance_.values().size_bytes();
+    for (const Image<uint8_t>& lit : lit_) bytes += lit.values().size_bytes();
+    return bytes;
 }
 
 }  // namespace etalon

@@ -62,6 +62,7 @@ class VolumeShadows final : public LightVisibility {
     // width x height x samples: 0 where what is visible is in shadow, else 1. Empty: nothing casts.
     const Image<uint8_t>& mask(size_t light) const { return lit_[light]; }
     const VolumeShadowStatistics& statistics() const { return statistics_; }
+    uint64_t memory_bytes() const;
 
   private:
     std::vector<Image<uint8_t>> lit_;  // for each light

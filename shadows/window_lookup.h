@@ -27,6 +27,11 @@ class WindowLookup {
 
     // visibility[i] for all points.
     void find(const LitPoints& points, std::span<double> visibility) const;
+    uint64_t memory_bytes() const {
+        uint64_t bytes = 0;
+        for (const Ranges& of : ranges_) bytes += (of.nearest.size() + of.farthest.size()) * sizeof(Stored);
+        return bytes;
+    }
 
   private:
     using vec3 = typename K::vec3;

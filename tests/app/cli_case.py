@@ -1,6 +1,7 @@
 """What the tests of the command share: run it in a new folder, look at exit code, messages and files."""
 import os
 import pathlib
+import pty
 import re
 import shutil
 import struct
@@ -47,6 +48,22 @@ class CliCase(unittest.TestCase):
         result = self.expect(2, *arguments, **options)
         self.assertIn(text, result.stderr)
         return result
+
+    def on_terminal(self, *arguments):
+        """What a terminal as standard error gets to see; the exit code is 0."""
+        master, terminal = pty.openpty()
+        process = subprocess.Popen([self.program, *map(str, arguments)], cwd=self.folder,
+                                   stdout=subprocess.DEVNULL, stderr=terminal)
+        os.close(terminal)
+        text = b""
+        try:
+            while piece := os.read(master, 4096):
+                text += piece
+        except OSError:
+            pass  # the other side is closed
+        os.close(master)
+        self.assertEqual(process.wait(), 0)
+        return text.decode()
 
     def lowest_level(self):
         """The first of the instruction set levels that are built."""

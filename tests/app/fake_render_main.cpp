@@ -3,9 +3,9 @@
 #include <fstream>
 
 #include "app/command_line.h"
-#include "app/golden_support.h"
 #include "app/verbs.h"
 #include "bitcheck/bit_case.h"
+#include "golden/golden.h"
 
 namespace {
 

@@ -36,6 +36,13 @@ class ProbeConvert(cli_case.CliCase):
         self.assertAlmostEqual(report["irradiance"]["-y"][1], math.pi, delta=0.03)
         self.assertEqual((report["negative"], report["infinite"], report["nan"]), (0, 0, 0))
 
+    def test_progress_shows_on_a_terminal_after_a_second(self):
+        convert = ("probe", "convert", "sky.pfm", "--to", "mirror_ball", "-o", "a.exr", "--threads", 1)
+        self.assertEqual(self.on_terminal(*convert), "")
+        text = self.on_terminal(*convert, "--resample", "area", "--samples", 16, "--width", 1024)
+        self.assertRegex(text, r"converting: (step \d+, )?\d+ %, \d+ s left")
+        self.assertTrue(text.endswith("\x1b[K"))
+
     def test_what_is_no_radiance_is_counted(self):
         values = {(0, 0): (-1.0, math.nan, math.inf), (1, 0): (math.nan, 1.0, 1.0)}
         (self.folder / "bad.pfm").write_bytes(pfm(8, 4, lambda x, y: values.get((x, y), (1.0, 1.0, 1.0))))

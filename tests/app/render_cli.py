@@ -3,7 +3,6 @@
 import json
 import os
 import pathlib
-import pty
 import resource
 import shutil
 import signal
@@ -126,26 +125,17 @@ class Render(CliCase):
         self.assertEqual(max(seen), 1)
 
     def test_progress_shows_on_a_terminal_after_a_second(self):
-        def shown(width):
-            master, terminal = pty.openpty()
-            self.scene(width=width, height=width, more="[render]\nsamples = 16\n")
-            process = subprocess.Popen([self.program, "render", "scene.toml", "-o", "a.exr", "--threads", "1"],
-                                       cwd=self.folder, stdout=subprocess.DEVNULL, stderr=terminal)
-            os.close(terminal)
-            text = b""
-            try:
-                while piece := os.read(master, 4096):
-                    text += piece
-            except OSError:
-                pass  # the other side is closed
-            os.close(master)
-            self.assertEqual(process.wait(), 0)
-            return text.decode()
+        def shown(width, more=""):
+            self.scene(width=width, height=width, more="[render]\nsamples = 16\n" + more)
+            return self.on_terminal("render", "scene.toml", "-o", "a.exr", "--threads", "1")
 
         self.assertEqual(shown(16), "")
         text = shown(4000)
         self.assertRegex(text, r"shading \(\d+ of \d+\): \d+ %, \d+ s left")
+        self.assertRegex(text, r"writing a.exr: \d+ %, \d+ s left")
         self.assertTrue(text.endswith("\x1b[K"))
+        text = shown(200, 'occlusion = 3000\n[environment]\nconstant = [1, 1, 1]\nlighting = "exact"\n')
+        self.assertRegex(text, r"ambient occlusion \(\d+ of \d+\): step \d+, \d+ %, \d+ s left")
 
     def test_plan_as_text_json_and_graph(self):
         self.scene()

@@ -344,6 +344,9 @@ TEST_CASE("CubeMapsOfMirrorsAreProbes") {
     mesh.reflection = Reflection::scene;
     mesh.cubeSize = 8;
     scene.meshes = {mesh};
+    Plane side = planeAt({1.5, 0, -1}, 1, "side");
+    side.normal = {-1, 0, 0}, side.u = {0, 0, 1};
+    scene.planes.push_back(side);
     scene.ambient = glm::dvec3(1);
     scene.environment.kind = EnvironmentKind::constant;
     scene.environment.constant = glm::dvec3(0.125);
@@ -362,6 +365,10 @@ TEST_CASE("CubeMapsOfMirrorsAreProbes") {
     CHECK(probe.distance_m[face(CubeFace::minusZ)].at(4, 4) == doctest::Approx(2 * std::sqrt(1 + 2.0 / 64)));
     CHECK(probe.radiance[face(CubeFace::plusZ)].at(4, 4, 1) == 0.125f);
     CHECK(probe.distance_m[face(CubeFace::plusZ)].at(4, 4) == INFINITY);
+    // The side is 1.5 m to the right, and nothing near to the left.
+    CHECK(probe.distance_m[face(CubeFace::plusX)].at(4, 4) ==
+          doctest::Approx(1.5 * std::sqrt(1 + 2.0 / 64)).epsilon(1e-3));
+    CHECK(probe.distance_m[face(CubeFace::minusX)].at(4, 4) > 10);
     // What is not made is said.
     scene.meshes[0].objectToWorld = {translation({0, 0, 1})};
     const RenderResult hidden = renderScene(scene, {});
@@ -408,6 +415,31 @@ TEST_CASE("ShadowMapsAreFiles") {
     CHECK(result.warnings[0].find("shadow map of light0 is not made: ") == 0);
     scene.output.images = {"shadow_map"};
     CHECK_THROWS_AS(renderScene(scene, {}), InputError);
+}
+
+// The lights of an environment are found for their maps alone, too.
+TEST_CASE("ShadowMapsOfAnEnvironmentAreFiles") {
+    Scene scene = blockedScene({"ids", "shadow_map"}, ShadowMethod::none);
+    scene.lights.clear();
+    scene.environment.kind = EnvironmentKind::constant;
+    scene.environment.constant = glm::dvec3(1);
+    scene.environment.lighting = EnvironmentLightMethod::lights;
+    scene.environment.lightCount = 16;
+    scene.environment.shadow.method = ShadowMethod::map;
+    scene.environment.shadow.map.size = 16;
+    scene.environment.shadowLights = 16;
+    const RenderResult alone = renderScene(scene, {});
+    CHECK_FALSE(alone.plan.find("diffuse")->runs);
+    CHECK(alone.files.size() + alone.warnings.size() == 16);
+    REQUIRE(alone.files.size() > 4);
+    scene.output.images.emplace_back("beauty");
+    const RenderResult result = renderScene(scene, {});
+    REQUIRE(result.files.size() == alone.files.size());
+    for (size_t i = 0; i < alone.files.size(); i++) {
+        CHECK(result.files[i].name == alone.files[i].name);
+        CHECK(std::ranges::equal(valuesOf(result.files[i].frame, "depth"),
+                                 valuesOf(alone.files[i].frame, "depth")));
+    }
 }
 
 TEST_CASE("OutputsRunTheirPassesAndNoOthers") {

@@ -108,13 +108,19 @@ TEST_CASE("AHandleOfAPassThatIsGoneIsRefusedWhenThePlanIsMade") {
 
 TEST_CASE("WhatOnlyUncertainPassesReadIsUncertain") {
     PassList list;
-    const auto source = list.add(textOf("source"), profile(), 0, [](const PassContext&) { return 1; });
+    const auto one = [](const PassContext&) { return 1; };
+    const auto early = list.add(textOf("early"), profile(), 0, one);
+    list.add(textOf("weather", true), profile(), 0, one);
+    const auto source = list.add(textOf("source"), profile(), 0, one);
     const auto read = [](const PassContext&, int value) { return value; };
     PassText maybe = textOf("maybe", true);
     maybe.dependsOn = "weather";
-    list.add(maybe, profile(), 0, read, source);
+    list.add(
+        maybe, profile(), 0, [](const PassContext&, int a, int b) { return a + b; }, early, source);
     list.decide(false);
     CHECK(list.find("source")->dependsOn == "weather");
+    // What has run by then is not ended.
+    CHECK(list.find("early")->dependsOn.empty());
     list.add(textOf("surely", true), profile(), 0, read, source);
     list.decide(false);
     CHECK(list.find("source")->dependsOn.empty());

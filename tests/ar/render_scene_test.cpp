@@ -9,7 +9,7 @@
 #include "golden/compare.h"
 #include "numeric/transform.h"
 #include "scene/outputs.h"
-#include "scene/scene_loader.h"
+#include "scene/scene.h"
 #include "tests/support/scratch_folder.h"
 
 using namespace etalon;
@@ -279,8 +279,9 @@ TEST_CASE("OcclusionDoesNotRunWhereNothingCanOcclude") {
         return *renderScene(of, {}).plan.find("ambient occlusion");
     };
     CHECK_FALSE(occlusionOf(scene).runs);
-    CHECK(occlusionOf(scene).reason == "nothing can occlude what is visible");
-    CHECK(planScene(scene, {}).find("ambient occlusion")->reason == "nothing can occlude what is visible");
+    const char* const kReason = "nothing can occlude the diffuse surfaces that are visible";
+    CHECK(occlusionOf(scene).reason == kReason);
+    CHECK(planScene(scene, {}).find("ambient occlusion")->reason == kReason);
     // A second plane below it changes nothing, one above it does.
     scene.planes.push_back(scene.planes[0]);
     scene.planes[1].name = "second";
@@ -307,8 +308,9 @@ TEST_CASE("ShadowsOfLightsBehindAllThatIsVisibleDoNotRun") {
     light.shadow.method = ShadowMethod::map;
     const Plan plan = renderScene(scene, {}).plan;
     CHECK_FALSE(plan.find("shadow map of light0")->runs);
-    CHECK(plan.find("shadow map of light0")->reason == "the light is behind all that is visible");
-    CHECK(plan.find("diffuse")->reason == "the lights are behind each diffuse surface");
+    CHECK(plan.find("shadow map of light0")->reason ==
+          "the light is behind all that is visible, and no output shows its shadow");
+    CHECK(plan.find("diffuse")->reason == "the lights are behind each diffuse surface that is visible");
     light.toLight = {0, 1, 0};
     CHECK(renderScene(scene, {}).plan.find("diffuse")->runs);
 }
@@ -372,7 +374,7 @@ TEST_CASE("APlanRunsNothingButTheGeometry") {
     RenderOptions options;
     std::vector<std::string> run;
     options.progress = [&](const RenderProgress& at) {
-        if (at.part == 0) run.push_back(at.plan->passes[at.pass].name());
+        if (at.step == 0) run.push_back(at.plan->passes[at.pass].name());
     };
     const Plan plan = planScene(scene, options);
     CHECK(run == std::vector<std::string>{"geometry"});
@@ -387,4 +389,39 @@ TEST_CASE("APlanRunsNothingButTheGeometry") {
         CHECK(pass.dependsOn.empty());
     }
     CHECK(run == expected);
+}
+
+TEST_CASE("ResultsHoldNoMoreThanThePlanSays") {
+    size_t checked = 0;
+    for (const char* name : {"shadow_methods", "shadows", "environment_occlusion", "environment_shadows",
+                             "environment_blurred", "environment_occlusion_vertices", "shadow_hard_volume"})
+        for (const char* profile : {"f32", "r300-fp24"}) {
+            Scene scene = loadScene(std::string("golden/scenes/") + name + ".toml");
+            scene.render.profile = *findProfile(profile);
+            scene.render.samples = 4;
+            scene.camera.width /= 4, scene.camera.height /= 4;
+            for (SceneLight& light : scene.lights)
+                light.shadow.map.size = light.shadow.planar.resolution = 64;
+            scene.environment.shadow.map.size = 64;
+            scene.output.images.assign(outputNames().begin(), outputNames().end());
+            RenderOptions options;
+            options.request.png = true;
+            const RenderResult result = renderScene(scene, options);
+            uint64_t sum = 0;
+            for (const Pass& pass : result.plan.passes) {
+                if (!pass.runs) CHECK(pass.held.all_bytes() == 0);
+                if (!pass.runs) continue;
+                CAPTURE(name + (", " + pass.name()));
+                CHECK(pass.held.planes_bytes <= pass.memory_bytes());
+                sum += pass.held.planes_bytes;
+                checked += pass.held.planes_bytes > 0 ? 1 : 0;
+            }
+            CHECK(sum <= result.plan.memory_bytes());
+            // The frame is what it has channels for.
+            CHECK(result.plan.find("frame")->held.planes_bytes ==
+                  result.frame.channels.size() * 4 * static_cast<size_t>(scene.camera.width) *
+                      static_cast<size_t>(scene.camera.height));
+            CHECK(result.plan.find("geometry")->held.lists_bytes > 0);
+        }
+    CHECK(checked > 100);
 }

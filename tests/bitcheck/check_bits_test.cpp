@@ -135,7 +135,7 @@ TEST_CASE("WaysCoverLevelsThreadsAndTiles") {
                 ways, [&](const BitWay& way) { return way.level == level && way.threads == threads; }));
         }
     WaySelection selection;
-    selection.everyCombination = true;
+    selection.extent = WayExtent::every;
     CHECK(waysOf(selection, c).size() == 9 * levels);
     selection.threads = 5;
     selection.tileSize = 8;
@@ -144,6 +144,15 @@ TEST_CASE("WaysCoverLevelsThreadsAndTiles") {
     BitCase plain = c;
     plain.hasThreads = plain.hasTiles = false;
     CHECK(waysOf({}, plain).size() == levels);
+    // Few: every level with more than one thread, and with several tile sizes.
+    selection = {};
+    selection.extent = WayExtent::few;
+    CHECK(waysOf(selection, plain).size() == levels);
+    for (const IsaLevel level : usableIsaLevels()) {
+        std::vector<BitWay> few = waysOf(selection, c);
+        std::erase_if(few, [&](const BitWay& way) { return way.level != level; });
+        CHECK(few == std::vector<BitWay>{{level, 1, 64}, {level, 7, 24}});
+    }
 }
 
 TEST_CASE("TileHashesSeeEveryWordOfTheirTileAndNoOther") {

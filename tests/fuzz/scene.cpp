@@ -5,7 +5,7 @@
 
 #include "ar/render_scene.h"
 #include "ar/surface_builder.h"
-#include "scene/scene_loader.h"
+#include "scene/scene.h"
 #include "tests/fuzz/fuzz.h"
 
 using namespace etalon;

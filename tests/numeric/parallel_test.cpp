@@ -2,14 +2,17 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <stdexcept>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "numeric/check.h"
 #include "numeric/fp_environment.h"
+#include "numeric/progress.h"
 
 using namespace etalon;
 
@@ -59,4 +62,37 @@ TEST_CASE("AThreadThatFlushesSubnormalsIsRefused") {
         CHECK(tiny * 0.5f == 0.0f);
     }
     CHECK(tiny * 0.5f != 0.0f);
+}
+
+TEST_CASE("LoopsOfAThreadAreTheStepsOfItsProgressWhateverTheThreads") {
+    for (const int threads : {1, 4}) {
+        std::vector<std::pair<int, double>> reports;
+        const auto work = [&] {
+            parallelFor(100, threads, [](size_t) {
+                // A part of the first step, on whatever thread.
+                parallelFor(3, 1, [](size_t) {});
+            });
+            const ProgressLoop once(1);
+            ProgressLoop faces(6);
+            for (int i = 0; i < 6; i++, faces.next()) parallelFor(10, threads, [](size_t) {});
+        };
+        work();
+        CHECK(reports.empty());
+        {
+            const ProgressScope watched([&](int step, double part) { reports.emplace_back(step, part); });
+            work();
+            {
+                const ProgressScope nobody({});
+                work();
+            }
+        }
+        work();
+        CAPTURE(threads);
+        REQUIRE(!reports.empty());
+        CHECK(reports.front() == std::pair(1, 0.0));
+        CHECK(reports.back() == std::pair(2, 1.0));
+        CHECK(std::ranges::is_sorted(reports));
+        CHECK(std::ranges::count(reports, 2, &std::pair<int, double>::first) == 7);
+        CHECK(std::ranges::find(reports, std::pair(1, 1.0)) != reports.end());
+    }
 }

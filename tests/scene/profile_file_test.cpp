@@ -9,7 +9,7 @@
 
 #include "numeric/check.h"
 #include "scene/profile_text.h"
-#include "scene/scene_loader.h"
+#include "scene/scene.h"
 #include "tests/support/scratch_folder.h"
 
 using namespace etalon;

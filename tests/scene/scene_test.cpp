@@ -8,7 +8,7 @@
 
 #include "numeric/check.h"
 #include "numeric/transform.h"
-#include "scene/scene_loader.h"
+#include "scene/scene.h"
 #include "tests/support/scratch_folder.h"
 
 namespace etalon {

@@ -1,4 +1,4 @@
-#include "scene/scene_loader.h"
+#include "scene/scene.h"
 
 #include <algorithm>
 #include <map>
