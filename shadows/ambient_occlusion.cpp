@@ -25,10 +25,7 @@ glm::dvec3 unitOr(const glm::dvec3& v, const glm::dvec3& otherwise) {
     return Kernels().unitOr3(v, otherwise);
 }
 
-constexpr Kernels::OcclusionSum kNothing = {0, 0, glm::dvec3(0)};
-
-Occlusion occlusionOf(Kernels kernels, const Kernels::OcclusionSum& sum, const glm::dvec3& normal) {
-    const Kernels::OpenPart part = kernels.openPart(sum, normal);
+Occlusion occlusionOf(const Kernels::OpenPart& part) {
     return {part.open, part.bentNormal};
 }
 
@@ -80,29 +77,28 @@ class Hemicube {
   public:
     Hemicube(std::span<const PlacedMesh> placed, const HemicubeOptions& options,
              const HemicubeWeights& weights)
-        : options_(options),
-          weights_(weights),
-          top_(placed, weights.size, weights.size),
-          side_(placed, weights.size, weights.size / 2) {}
+        : options_(options), weights_(weights) {
+        faces_.emplace_back(placed, weights.size, weights.size);
+        for (int side = 0; side < 4; side++) faces_.emplace_back(placed, weights.size, weights.size / 2);
+    }
 
     Occlusion at(const OcclusionPoint& point) {
         const auto [u, v] = acrossOf(point.normal);
         const glm::dvec3& n = point.normal;
         camera_.position = point.position_m + options_.offset_m * n;
-        sum_ = kNothing;
-        sum_.total = 1;  // the form factors of all texels
         // Right, up and backward are right-handed; up is towards the normal on the sides.
-        addFace(top_, weights_.top, v, u, n);
-        addFace(side_, weights_.side, -v, n, u);
-        addFace(side_, weights_.side, v, n, -u);
-        addFace(side_, weights_.side, u, n, v);
-        addFace(side_, weights_.side, -u, n, -v);
-        return occlusionOf({}, sum_, n);
+        const std::array<Kernels::View, 5> views = {
+            drawFace(faces_[0], weights_.top, v, u, n), drawFace(faces_[1], weights_.side, -v, n, u),
+            drawFace(faces_[2], weights_.side, v, n, -u), drawFace(faces_[3], weights_.side, u, n, v),
+            drawFace(faces_[4], weights_.side, -u, n, -v)};
+        Kernels kernels;
+        kernels.views = views;
+        return occlusionOf(kernels.hemicubePart(n, static_cast<int>(views.size())));
     }
 
   private:
-    void addFace(Drawer& drawer, const std::vector<double>& weights, const glm::dvec3& right,
-                 const glm::dvec3& up, const glm::dvec3& forward) {
+    Kernels::View drawFace(Drawer& drawer, const std::vector<double>& weights, const glm::dvec3& right,
+                           const glm::dvec3& up, const glm::dvec3& forward) {
         const int size = weights_.size, height = static_cast<int>(weights.size()) / size;
         camera_.width = size;
         camera_.height = height;
@@ -114,18 +110,16 @@ class Hemicube {
         camera_.near_m = isLimited ? options_.maxDistance_m * 0x1p-10 : 1;
         camera_.far_m = HUGE_VAL;
         const View view = cameraView(camera_);
-        Kernels kernels;
-        kernels.view = &drawer.draw(view, {1, 64, false});
-        kernels.weights = weights;
-        sum_ = kernels.addHemicubeFace(sum_, {view.forward, view.perX, view.perY, view.centreX_px,
-                                              view.centreY_px, size, height, isLimited ? 1 : 0});
+        return {.target = &drawer.draw(view, {1, 64, false}),
+                .face = {view.forward, view.perX, view.perY, view.centreX_px, view.centreY_px, size, height,
+                         isLimited ? 1 : 0},
+                .weights = weights};
     }
 
     const HemicubeOptions& options_;
     const HemicubeWeights& weights_;
-    Drawer top_, side_;
+    std::vector<Drawer> faces_;  // the top, then the sides
     PinholeCamera camera_;
-    Kernels::OcclusionSum sum_;
 };
 
 // An orthographic view of a ball along -towards, of radius_m around centre; z from 0 towards the light to 1.
@@ -188,9 +182,10 @@ std::vector<OcclusionPoint> occlusionPointsOf(const View& view, const Image<floa
                 points.emplace_back();
                 continue;
             }
-            const glm::dvec3 ray = Kernels().rayFromCentre(
-                view.forward, view.perX, view.perY, x + 0.5 - view.centreX_px, y + 0.5 - view.centreY_px);
-            points.push_back({view.eye + distance_m * unitOr(ray, view.forward), unitOr(n, glm::dvec3(0))});
+            points.push_back({Kernels().seenPoint(view.eye, view.forward, view.perX, view.perY,
+                                                  x + 0.5 - view.centreX_px, y + 0.5 - view.centreY_px,
+                                                  distance_m),
+                              unitOr(n, glm::dvec3(0))});
         }
     return points;
 }
@@ -249,7 +244,7 @@ std::vector<Occlusion> directionalOcclusion(std::span<const PlacedMesh> placed,
     ETALON_CHECK(options.directions >= 1 && options.mapSize >= 1, "{} directions, maps of {}",
                  options.directions, options.mapSize);
     const Ball ball = ballAround(placed);
-    std::vector<Kernels::OcclusionSum> sums(points.size(), kNothing);
+    std::vector<Kernels::OcclusionSum> sums(points.size(), Kernels().noDirections(0));
     Drawer drawer(placed, options.mapSize, options.mapSize);
     const int size = options.mapSize;
     // A plane within a texel is at most half a diagonal from where the texel's centre shows it.
@@ -258,21 +253,25 @@ std::vector<Occlusion> directionalOcclusion(std::span<const PlacedMesh> placed,
         const glm::dvec3 towards = spiralDirection(k, options.directions);
         // Room for what is moved off the surface.
         const View view = ballView(towards, ball.centre, ball.radius_m * (1 + 2.0 / size), size);
-        const Kernels::ParallelView from = {
-            towards, view.worldToClip[0], view.worldToClip[1], view.worldToClip[2], size, offset_m};
+        const Kernels::View drawn = {
+            .target = &drawer.draw(view, options.raster),
+            .parallel = {towards, view.worldToClip[0], view.worldToClip[1], view.worldToClip[2], size, offset_m}};
+        // One view at a time is kept.
         Kernels kernels;
-        kernels.view = &drawer.draw(view, options.raster);
-        parallelFor(
-            (points.size() + kPointsPerTask - 1) / kPointsPerTask, options.raster.threads, [&](size_t task) {
-                Kernels ofTask = kernels;
-                const size_t end = std::min(points.size(), (task + 1) * kPointsPerTask);
-                for (size_t i = task * kPointsPerTask; i < end; i++)
-                    sums[i] = ofTask.addParallelView(sums[i], points[i].position_m, points[i].normal, from);
-            });
+        kernels.views = {&drawn, 1};
+        kernels.firstView = k;
+        parallelFor((points.size() + kPointsPerTask - 1) / kPointsPerTask, options.raster.threads,
+                    [&](size_t task) {
+                        Kernels ofTask = kernels;
+                        const size_t end = std::min(points.size(), (task + 1) * kPointsPerTask);
+                        for (size_t i = task * kPointsPerTask; i < end; i++)
+                            sums[i] = ofTask.addParallelViews(sums[i], points[i].position_m, points[i].normal,
+                                                              k, k + 1);
+                    });
     }
     std::vector<Occlusion> result(points.size());
     for (size_t i = 0; i < points.size(); i++)
-        if (points[i].normal != glm::dvec3(0)) result[i] = occlusionOf({}, sums[i], points[i].normal);
+        result[i] = occlusionOf(Kernels().openPart(sums[i], points[i].normal));
     return result;
 }
 
