@@ -25,9 +25,7 @@ glm::dvec3 unitOr(const glm::dvec3& v, const glm::dvec3& otherwise) {
     return Kernels().unitOr3(v, otherwise);
 }
 
-Occlusion occlusionOf(const Kernels::OpenPart& part) {
-    return {part.open, part.bentNormal};
-}
+Occlusion occlusionOf(const Kernels::OpenPart& part) { return {part.open, part.bentNormal}; }
 
 // Two unit vectors across a unit vector.
 std::array<glm::dvec3, 2> acrossOf(const glm::dvec3& n) {
@@ -182,10 +180,10 @@ std::vector<OcclusionPoint> occlusionPointsOf(const View& view, const Image<floa
                 points.emplace_back();
                 continue;
             }
-            points.push_back({Kernels().seenPoint(view.eye, view.forward, view.perX, view.perY,
-                                                  x + 0.5 - view.centreX_px, y + 0.5 - view.centreY_px,
-                                                  distance_m),
-                              unitOr(n, glm::dvec3(0))});
+            points.push_back(
+                {Kernels().seenPoint(view.eye, view.forward, view.perX, view.perY, x + 0.5 - view.centreX_px,
+                                     y + 0.5 - view.centreY_px, distance_m),
+                 unitOr(n, glm::dvec3(0))});
         }
     return points;
 }
@@ -253,21 +251,21 @@ std::vector<Occlusion> directionalOcclusion(std::span<const PlacedMesh> placed,
         const glm::dvec3 towards = spiralDirection(k, options.directions);
         // Room for what is moved off the surface.
         const View view = ballView(towards, ball.centre, ball.radius_m * (1 + 2.0 / size), size);
-        const Kernels::View drawn = {
-            .target = &drawer.draw(view, options.raster),
-            .parallel = {towards, view.worldToClip[0], view.worldToClip[1], view.worldToClip[2], size, offset_m}};
+        const Kernels::View drawn = {.target = &drawer.draw(view, options.raster),
+                                     .parallel = {towards, view.worldToClip[0], view.worldToClip[1],
+                                                  view.worldToClip[2], size, offset_m}};
         // One view at a time is kept.
         Kernels kernels;
         kernels.views = {&drawn, 1};
         kernels.firstView = k;
-        parallelFor((points.size() + kPointsPerTask - 1) / kPointsPerTask, options.raster.threads,
-                    [&](size_t task) {
-                        Kernels ofTask = kernels;
-                        const size_t end = std::min(points.size(), (task + 1) * kPointsPerTask);
-                        for (size_t i = task * kPointsPerTask; i < end; i++)
-                            sums[i] = ofTask.addParallelViews(sums[i], points[i].position_m, points[i].normal,
-                                                              k, k + 1);
-                    });
+        parallelFor(
+            (points.size() + kPointsPerTask - 1) / kPointsPerTask, options.raster.threads, [&](size_t task) {
+                Kernels ofTask = kernels;
+                const size_t end = std::min(points.size(), (task + 1) * kPointsPerTask);
+                for (size_t i = task * kPointsPerTask; i < end; i++)
+                    sums[i] =
+                        ofTask.addParallelViews(sums[i], points[i].position_m, points[i].normal, k, k + 1);
+            });
     }
     std::vector<Occlusion> result(points.size());
     for (size_t i = 0; i < points.size(); i++)

@@ -70,10 +70,11 @@ std::vector<double> occlusionOver(const Views& views) {
                             .parallel = {constant(views.towards[k]), constant4(rows[0]), constant4(rows[1]),
                                          constant4(rows[2]), kSize, T(0.01)}});
         if (k % 4 == 0)
-            faces.push_back({.target = &views.targets[k],
-                             .face = {constant(views.towards[k]), constant({0.1, 0, 0}), constant({0, 0.1, 0}),
-                                      T(kSize / 2), T(kSize / 2), kSize, kSize, k % 8 == 0 ? 1 : 0},
-                             .weights = views.weights});
+            faces.push_back(
+                {.target = &views.targets[k],
+                 .face = {constant(views.towards[k]), constant({0.1, 0, 0}), constant({0, 0.1, 0}),
+                          T(kSize / 2), T(kSize / 2), kSize, kSize, k % 8 == 0 ? 1 : 0},
+                 .weights = views.weights});
     }
     std::vector<double> result(kNumbers * views.points.size());
     forEachLaneGroup<Number<T>::lanes>(views.points.size(), [&](size_t first, int active) {
