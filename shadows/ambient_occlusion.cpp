@@ -38,11 +38,15 @@ std::array<glm::dvec3, 2> acrossOf(const glm::dvec3& n) {
 // Draws a scene again and again into small views.
 class Drawer {
   public:
-    Drawer(std::span<const PlacedMesh> placed, int width, int height)
-        : placed_(placed), target_(width, height, format()), vertices_(placed.size()) {}
+    explicit Drawer(std::span<const PlacedMesh> placed) : placed_(placed), vertices_(placed.size()) {}
 
+    static RenderTarget target(int width, int height) {
+        RenderTargetFormat format;
+        format.real = RasterReal::fp64;
+        return {width, height, format};
+    }
     // Both sides of every triangle; nearer than the near plane counts as on it.
-    const RenderTarget& draw(const View& view, const RasterOptions& raster) {
+    void draw(const View& view, const RasterOptions& raster, RenderTarget& target) {
         std::vector<Draw> draws;
         for (size_t i = 0; i < placed_.size(); i++) {
             toClipSpace(placed_[i], view, RasterReal::fp64, raster.threads, vertices_[i]);
@@ -55,18 +59,11 @@ class Drawer {
         }
         RasterOptions cleared = raster;
         cleared.clear = true;
-        rasterize(target_, {0, 0, target_.width(), target_.height()}, draws, cleared);
-        return target_;
+        rasterize(target, {0, 0, target.width(), target.height()}, draws, cleared);
     }
 
   private:
-    static RenderTargetFormat format() {
-        RenderTargetFormat format;
-        format.real = RasterReal::fp64;
-        return format;
-    }
     std::span<const PlacedMesh> placed_;
-    RenderTarget target_;
     std::vector<UninitializedVector<ClipVertex>> vertices_;
 };
 
@@ -75,9 +72,9 @@ class Hemicube {
   public:
     Hemicube(std::span<const PlacedMesh> placed, const HemicubeOptions& options,
              const HemicubeWeights& weights)
-        : options_(options), weights_(weights) {
-        faces_.emplace_back(placed, weights.size, weights.size);
-        for (int side = 0; side < 4; side++) faces_.emplace_back(placed, weights.size, weights.size / 2);
+        : options_(options), weights_(weights), drawer_(placed) {
+        faces_.push_back(Drawer::target(weights.size, weights.size));
+        for (int side = 0; side < 4; side++) faces_.push_back(Drawer::target(weights.size, weights.size / 2));
     }
 
     Occlusion at(const OcclusionPoint& point) {
@@ -95,7 +92,7 @@ class Hemicube {
     }
 
   private:
-    Kernels::View drawFace(Drawer& drawer, const std::vector<double>& weights, const glm::dvec3& right,
+    Kernels::View drawFace(RenderTarget& target, const std::vector<double>& weights, const glm::dvec3& right,
                            const glm::dvec3& up, const glm::dvec3& forward) {
         const int size = weights_.size, height = static_cast<int>(weights.size()) / size;
         camera_.width = size;
@@ -108,7 +105,8 @@ class Hemicube {
         camera_.near_m = isLimited ? options_.maxDistance_m * 0x1p-10 : 1;
         camera_.far_m = HUGE_VAL;
         const View view = cameraView(camera_);
-        return {.target = &drawer.draw(view, {1, 64, false}),
+        drawer_.draw(view, {1, 64, false}, target);
+        return {.target = &target,
                 .face = {view.forward, view.perX, view.perY, view.centreX_px, view.centreY_px, size, height,
                          isLimited ? 1 : 0},
                 .weights = weights};
@@ -116,7 +114,8 @@ class Hemicube {
 
     const HemicubeOptions& options_;
     const HemicubeWeights& weights_;
-    std::vector<Drawer> faces_;  // the top, then the sides
+    Drawer drawer_;
+    std::vector<RenderTarget> faces_;  // the top, then the sides
     PinholeCamera camera_;
 };
 
@@ -243,7 +242,8 @@ std::vector<Occlusion> directionalOcclusion(std::span<const PlacedMesh> placed,
                  options.directions, options.mapSize);
     const Ball ball = ballAround(placed);
     std::vector<Kernels::OcclusionSum> sums(points.size(), Kernels().noDirections(0));
-    Drawer drawer(placed, options.mapSize, options.mapSize);
+    Drawer drawer(placed);
+    RenderTarget target = Drawer::target(options.mapSize, options.mapSize);
     const int size = options.mapSize;
     // A plane within a texel is at most half a diagonal from where the texel's centre shows it.
     const double texel_m = 2 * ball.radius_m / size, offset_m = 0.75 * texel_m;
@@ -251,7 +251,8 @@ std::vector<Occlusion> directionalOcclusion(std::span<const PlacedMesh> placed,
         const glm::dvec3 towards = spiralDirection(k, options.directions);
         // Room for what is moved off the surface.
         const View view = ballView(towards, ball.centre, ball.radius_m * (1 + 2.0 / size), size);
-        const Kernels::View drawn = {.target = &drawer.draw(view, options.raster),
+        drawer.draw(view, options.raster, target);
+        const Kernels::View drawn = {.target = &target,
                                      .parallel = {towards, view.worldToClip[0], view.worldToClip[1],
                                                   view.worldToClip[2], size, offset_m}};
         // One view at a time is kept.
