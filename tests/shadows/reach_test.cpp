@@ -143,7 +143,7 @@ TEST_CASE("WhatIsAllOpenIsFoundOpenInEveryDirection") {
     Random random(11);
     int open = 0, closed = 0, covered = 0;
     for (int scene = 0; scene < 200; scene++) {
-        const double reach_m = std::ldexp(1, random.integer(-24, -5));
+        const double reach_m = std::ldexp(1, random.integer(-24, -1));
         const auto moved = [&](SurfaceMesh mesh) {
             for (auto& p : mesh.positions)
                 for (int c = 0; c < 3; c++) p[c] += static_cast<float>(random.uniform(-reach_m, reach_m));
