@@ -60,6 +60,13 @@ struct LongitudeTable {
     std::vector<double> values;
 };
 
+// With a number of functions that is known where it is compiled, so that the sums stay in registers.
+template <class D, int functions>
+[[gnu::flatten]] typename LatLongMomentsKernel<D>::Moments momentsOf(LatLongMomentsKernel<D> kernel,
+                                                                     int function, int part) {
+    return kernel.momentsOf(function, functions, part, static_cast<int>(kernel.padded), kMomentParts);
+}
+
 // The moments of a row, kMomentParts partial sums folded: the first 3 table.count of `sums`, which holds
 // kMomentParts times as many, padded to lanes of D.
 template <class D>
@@ -68,12 +75,14 @@ void findMoments(const TexelRow& row, LongitudeTable& table, std::vector<double>
     static_assert(kMomentParts % kWidth == 0);
     LatLongMomentsKernel<D> kernel{.longitudes = table.values.data(), .padded = table.padded, .row = &row};
     const size_t terms = sums.size() / kMomentParts;
-    const auto count = static_cast<int>(table.count), end = static_cast<int>(table.padded);
+    const auto count = static_cast<int>(table.count);
     std::array<double, kWidth> lanes;
     for (int part = 0; part < kMomentParts; part += kWidth)
         for (int f = 0; f < count; f += 3) {
             const int functions = std::min(3, count - f);
-            const auto found = kernel.momentsOf(f, functions, part, end, kMomentParts);
+            const auto found = functions == 3   ? momentsOf<D, 3>(kernel, f, part)
+                               : functions == 2 ? momentsOf<D, 2>(kernel, f, part)
+                                                : momentsOf<D, 1>(kernel, f, part);
             const std::array of = {found.ofFirst, found.ofSecond, found.ofThird};
             for (int i = 0; i < 3 * functions; i++) {
                 Number<D>::storeKept(of[static_cast<size_t>(i / 3)][i % 3], lanes.data());

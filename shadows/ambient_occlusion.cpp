@@ -72,28 +72,30 @@ class Hemicube {
   public:
     Hemicube(std::span<const PlacedMesh> placed, const HemicubeOptions& options,
              const HemicubeWeights& weights)
-        : options_(options), weights_(weights), drawer_(placed) {
-        faces_.push_back(Drawer::target(weights.size, weights.size));
-        for (int side = 0; side < 4; side++) faces_.push_back(Drawer::target(weights.size, weights.size / 2));
-    }
+        : options_(options),
+          weights_(weights),
+          drawer_(placed),
+          top_(Drawer::target(weights.size, weights.size)),
+          side_(Drawer::target(weights.size, weights.size / 2)) {}
 
     Occlusion at(const OcclusionPoint& point) {
         const auto [u, v] = acrossOf(point.normal);
         const glm::dvec3& n = point.normal;
         camera_.position = point.position_m + options_.offset_m * n;
+        sum_ = Kernels().noDirections(1);
         // Right, up and backward are right-handed; up is towards the normal on the sides.
-        const std::array<Kernels::View, 5> views = {
-            drawFace(faces_[0], weights_.top, v, u, n), drawFace(faces_[1], weights_.side, -v, n, u),
-            drawFace(faces_[2], weights_.side, v, n, -u), drawFace(faces_[3], weights_.side, u, n, v),
-            drawFace(faces_[4], weights_.side, -u, n, -v)};
-        Kernels kernels;
-        kernels.views = views;
-        return occlusionOf(kernels.hemicubePart(n, static_cast<int>(views.size())));
+        addFace(0, top_, weights_.top, v, u, n);
+        addFace(1, side_, weights_.side, -v, n, u);
+        addFace(2, side_, weights_.side, v, n, -u);
+        addFace(3, side_, weights_.side, u, n, v);
+        addFace(4, side_, weights_.side, -u, n, -v);
+        return occlusionOf(Kernels().openPart(sum_, n));
     }
 
   private:
-    Kernels::View drawFace(RenderTarget& target, const std::vector<double>& weights, const glm::dvec3& right,
-                           const glm::dvec3& up, const glm::dvec3& forward) {
+    // Draws it and adds what it shows; it is not kept.
+    void addFace(int face, RenderTarget& target, const std::vector<double>& weights, const glm::dvec3& right,
+                 const glm::dvec3& up, const glm::dvec3& forward) {
         const int size = weights_.size, height = static_cast<int>(weights.size()) / size;
         camera_.width = size;
         camera_.height = height;
@@ -106,17 +108,22 @@ class Hemicube {
         camera_.far_m = HUGE_VAL;
         const View view = cameraView(camera_);
         drawer_.draw(view, {1, 64, false}, target);
-        return {.target = &target,
-                .face = {view.forward, view.perX, view.perY, view.centreX_px, view.centreY_px, size, height,
-                         isLimited ? 1 : 0},
-                .weights = weights};
+        const Kernels::View drawn = {.target = &target,
+                                     .face = {view.forward, view.perX, view.perY, view.centreX_px,
+                                              view.centreY_px, size, height, isLimited ? 1 : 0},
+                                     .weights = weights};
+        Kernels kernels;
+        kernels.views = {&drawn, 1};
+        kernels.firstView = face;
+        sum_ = kernels.addHemicubeFaces(sum_, face, face + 1);
     }
 
     const HemicubeOptions& options_;
     const HemicubeWeights& weights_;
     Drawer drawer_;
-    std::vector<RenderTarget> faces_;  // the top, then the sides
+    RenderTarget top_, side_;
     PinholeCamera camera_;
+    Kernels::OcclusionSum sum_;
 };
 
 // An orthographic view of a ball along -towards, of radius_m around centre; z from 0 towards the light to 1.

@@ -100,6 +100,14 @@ OcclusionSum addHemicubeFace(OcclusionSum sum, int view) {
     return all;
 }
 
+// The same with the faces first .. last - 1. A point's sum is that of all faces from noDirections(1) on, as the form factors
+// of all their texels add up to 1; any cut of them into ranges gives the same bits.
+OcclusionSum addHemicubeFaces(OcclusionSum sum, int first, int last) {
+    OcclusionSum all = sum;
+    for (int view = first; view < last; view++) all = addHemicubeFace(all, view);
+    return all;
+}
+
 // What a point sees of its surroundings. Exactly 1 and the normal where nothing is covered; of a point without a normal
 // (0, 0, 0) exactly 1 and none.
 struct OpenPart {
@@ -118,10 +126,4 @@ OpenPart openPart(OcclusionSum sum, vec3 normal) {
     result.bentNormal = vec3(select(hasNormal, seen.x, real(0.0)), select(hasNormal, seen.y, real(0.0)),
                              select(hasNormal, seen.z, real(0.0)));
     return result;
-}
-// Through a hemicube whose faces are the views 0 .. faces - 1. The form factors of all their texels add up to 1.
-OpenPart hemicubePart(vec3 normal, int faces) {
-    OcclusionSum sum = noDirections(real(1.0));
-    for (int view = 0; view < faces; view++) sum = addHemicubeFace(sum, view);
-    return openPart(sum, normal);
 }

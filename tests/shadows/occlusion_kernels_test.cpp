@@ -96,9 +96,10 @@ std::vector<double> occlusionOver(const Views& views) {
         kept.firstView = 3;
         sum = kept.addParallelViews(sum, position, normal, 5, kViews);
         kernels.views = faces;
+        typename K::OcclusionSum ofFaces = kernels.addHemicubeFaces(kernels.noDirections(T(1.0)), 0, 1);
+        ofFaces = kernels.addHemicubeFaces(ofFaces, 1, static_cast<int>(faces.size()));
         size_t number = 0;
-        for (const auto& part :
-             {kernels.openPart(sum, normal), kernels.hemicubePart(normal, static_cast<int>(faces.size()))})
+        for (const auto& part : {kernels.openPart(sum, normal), kernels.openPart(ofFaces, normal)})
             for (const T& value : {part.open, part.bentNormal.x, part.bentNormal.y, part.bentNormal.z}) {
                 for (int i = 0; i < active; i++)
                     result[(first + static_cast<size_t>(i)) * kNumbers + number] = numberLane(value, i);
