@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "bitcheck/inputs.h"
 #include "numeric/check.h"
 #include "numeric/random.h"
 #include "numeric/vectors.h"
@@ -19,37 +20,10 @@ void addVertex(SurfaceMesh& mesh, const dvec3& position, const dvec3& normal) {
     mesh.normals.emplace_back(normal);
 }
 
-// A point of the torus knot's tube; u runs along the knot, v around the tube. The knot of tests and experiments is
-// torusKnotMesh() (bitcheck/inputs.h); this one is rippled, and its triangles are those that every measured row is of.
-dvec3 knotPoint(double u, double v) {
-    constexpr double kRadius = 0.78, kTube = 0.32, kRipple = 0.03, kStep = 1e-4;
-    const auto centre = [](double t) {
-        const double r = 0.5 * (2 + std::sin(3 * t));
-        return kRadius * dvec3(r * std::cos(2 * t), std::cos(3 * t), r * std::sin(2 * t));
-    };
-    const dvec3 here = centre(u), ahead = centre(u + kStep), behind = centre(u - kStep);
-    const dvec3 tangent = unitOf(ahead - behind);
-    const dvec3 side = unitOf(crossOf(tangent, ahead + behind - 2.0 * here));
-    const dvec3 inward = crossOf(side, tangent);
-    const double radius = kTube + kRipple * std::sin(9 * v + 30 * u);
-    return here + radius * (std::cos(v) * inward + std::sin(v) * side);
-}
-
-// segments x sides quads, counter-clockwise from outside.
-void addKnot(SurfaceMesh& mesh, int segments, int sides) {
-    constexpr double kStep = 1e-3;
-    for (int i = 0; i < segments; i++)
-        for (int j = 0; j < sides; j++) {
-            const double u = 2 * kPi * i / segments, v = 2 * kPi * j / sides;
-            const dvec3 p = knotPoint(u, v);
-            addVertex(mesh, p, unitOf(crossOf(knotPoint(u, v + kStep) - p, knotPoint(u + kStep, v) - p)));
-        }
-    const auto at = [&](int i, int j) { return static_cast<uint32_t>((i % segments) * sides + j % sides); };
-    for (int i = 0; i < segments; i++)
-        for (int j = 0; j < sides; j++)
-            for (const uint32_t index :
-                 {at(i, j), at(i + 1, j + 1), at(i + 1, j), at(i, j), at(i, j + 1), at(i + 1, j + 1)})
-                mesh.indices.push_back(index);
+// The knot of tests and experiments, of thicker arms with ripples; segments x sides quads.
+SurfaceMesh knotMesh(int segments, int sides) {
+    KnotShape shape{.radius_m = 0.78, .swing_m = 0.39, .rise_m = 0.78, .tube_m = 0.32, .ripple_m = 0.03};
+    return torusKnotMesh(segments, sides, shape);
 }
 
 // 4 x 4 quads of the plane y = -1.3, seen from above.
@@ -141,14 +115,14 @@ Workload make(const std::string& name, int lights) {
     SurfaceMesh& mesh = w.scene.meshes.emplace_back();
     w.view = knotView(kWidth, kHeight);
     if (name == "1k" || name == "1k-small") {
-        addKnot(mesh, 42, 12);
+        mesh = knotMesh(42, 12);
         addGround(mesh);
         if (name == "1k-small") w.view = knotView(64, 48);
     } else if (name == "70k") {
-        addKnot(mesh, 440, 80);
+        mesh = knotMesh(440, 80);
         addGround(mesh);
     } else if (name == "870k") {
-        addKnot(mesh, 1476, 295);
+        mesh = knotMesh(1476, 295);
         addGround(mesh);
     } else if (name == "large") {
         // The mean area of a triangle with random corners in a rectangle is 11/144 of the rectangle's.

@@ -159,10 +159,12 @@ SurfaceMesh torusKnotMesh(int along, int around, const KnotShape& shape) {
             const glm::dvec3 tangent = unit({next.x - centre.x, next.y - centre.y, next.z - centre.z});
             const glm::dvec3 side = unit(crossOf(tangent, {0.1, 1, 0.2})), up = crossOf(side, tangent);
             const double angle_rad = kTurn_rad * j / around, c = cosOf(angle_rad), s = sinOf(angle_rad);
+            const double radius_m =
+                shape.tube_m + shape.ripple_m * sinOf(9.0 * angle_rad + 30.0 * kTurn_rad * turn);
             glm::dvec3 normal, position;
             for (int k = 0; k < 3; k++) {
                 normal[k] = c * side[k] + s * up[k];
-                position[k] = centre[k] + shape.tube_m * normal[k];
+                position[k] = centre[k] + radius_m * normal[k];
             }
             mesh.positions.push_back(narrow(position));
             mesh.normals.push_back(narrow(normal));

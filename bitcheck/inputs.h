@@ -43,8 +43,9 @@ std::vector<ClipVertex> triangleSoup(Random& random, Soup family, int count, con
 // Closed and open meshes, lengths in metres, with normals of about unit length.
 // torusKnotMesh: a tube around the (2, 3) torus knot about +Y, 2 x along x around triangles, counter-clockwise from
 // outside. Its middle at the angle 2t is radius_m + swing_m cos(3t) from the axis, rise_m sin(3t) above the origin.
+// Ripples change the tube's radius by ripple_m sin(9 v + 30 t), v around the tube; normals are those of the smooth tube.
 struct KnotShape {
-    double radius_m = 1, swing_m = 0.4, rise_m = 0.4, tube_m = 0.18;
+    double radius_m = 1, swing_m = 0.4, rise_m = 0.4, tube_m = 0.18, ripple_m = 0;
 };
 SurfaceMesh torusKnotMesh(int along, int around, const KnotShape& shape = {});
 SurfaceMesh sphereMesh(int columns, int rows);

@@ -113,6 +113,7 @@ Difference compare(const PlanarShadow& reference, const PlanarShadow& shadow) {
             for (int c = 0; c < 3; c++) points.position_m[static_cast<size_t>(c)][x] = p[c];
         }
         std::swap(row, above);
+        std::fill(row.begin(), row.end(), 1.0);
         passes->visibility(shadow, {}, points, listed, row);
         const auto expected = [&](size_t x, int line) {
             return 1.0 - static_cast<double>(reference.shadow.at(static_cast<int>(x), line));

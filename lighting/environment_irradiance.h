@@ -1,7 +1,7 @@
-// What the environment gives a point of a surface, over a number type T, for the outputs that show it alone.
+// What the environment gives a point of a surface, over a number type T, for the outputs that show it alone: the text
+// lighting/kernels/environment_irradiance.glsl with the lights that it reads.
 #pragma once
 
-#include <utility>
 #include <vector>
 
 #include "lighting/environment_lighting.h"
@@ -13,41 +13,39 @@ namespace etalon {
 template <class T>
 class EnvironmentIrradiance {
   public:
-    using vec3 = glm::vec<3, T>;
+#include "numeric/kernel_scope.inc"
+#include "lighting/light_scope.inc"
+#include "numeric/kernels/vector.glsl"
+#include "probes/flux_scope.inc"
+#include "probes/kernels/flux.glsl"
+#include "probes/kernels/irradiance.glsl"
 
     // environment: its light from everywhere; it outlives this. lights: the numbers, among `all`, of the
-    // directional lights that it is cut into. sampler: of maps.
+    // directional lights that it is cut into. sampler: of maps. casts: for each of `all` whether its visibility is
+    // asked for, which then is in the row of the light's number; empty: of none.
     EnvironmentIrradiance(const EnvironmentLight& environment, const std::vector<SurfaceLight>& all,
-                          const std::vector<size_t>& lights, const SamplerSettings& sampler)
+                          const std::vector<size_t>& lights, const SamplerSettings& sampler,
+                          const std::vector<bool>& casts)
         : everywhere_(environment, sampler) {
-        for (const size_t l : lights)
-            lights_.push_back({l, floored(all[l].toLight), floored(all[l].irradiance)});
+        const auto constant = [this](const glm::dvec3& v) {
+            return flooredTerm3(vec3(T(v.x), T(v.y), T(v.z)));
+        };
+        for (const size_t l : lights) {
+            const int shadowRow = !casts.empty() && casts[l] ? static_cast<int>(l) : -1;
+            lights_.push_back({{constant(all[l].toLight), 0, constant(all[l].irradiance), shadowRow, 0}, {}});
+        }
     }
 
-    // W/m^2 on a plane with the unit normal n. open, bentNormal: what the plane sees of its surroundings
-    // (lighting/occlusion.h): the light from everywhere is that in the bent normal, times what is open.
-    // reaching(l): the part of light l that reaches it. Lights are added in their order, behind the rest.
-    template <class Reaching>
-    vec3 at(const vec3& n, const T& open, const vec3& bentNormal, const Reaching& reaching) {
-        vec3 sum = kernel_.scale3(everywhere_.environmentIrradiance(bentNormal), open);
-        for (const Light& light : lights_)
-            sum = kernel_.addIrradiance(sum, n, light.toLight,
-                                        kernel_.scale3(light.irradiance, reaching(light.number)));
-        return sum;
-    }
+    LightBuffer lights() const { return {lights_.data(), static_cast<int>(lights_.size())}; }
+
+    // What the text calls.
+    vec3 environmentIrradiance(const vec3& n) { return everywhere_.environmentIrradiance(n); }
+
+#include "lighting/kernels/environment_irradiance.glsl"
 
   private:
-    struct Light {
-        size_t number;
-        vec3 toLight, irradiance;
-    };
-    vec3 floored(const glm::dvec3& v) {
-        return {kernel_.flooredTerm(T(v.x)), kernel_.flooredTerm(T(v.y)), kernel_.flooredTerm(T(v.z))};
-    }
-
-    IrradianceKernel<T> kernel_;
     EnvironmentLighting<T> everywhere_;
-    std::vector<Light> lights_;
+    std::vector<LightRecord> lights_;
 };
 
 }  // namespace etalon

@@ -150,7 +150,8 @@ TileShaderOf<T>::TileShaderOf(const ShadeJob& job)
                                   [](const VertexRadiance& of) { return !of.sides[0].open.empty(); })
             : job.occlusion != nullptr;
     if (job.request[ShadeOutput::irradiance] || job.request[ShadeOutput::environment])
-        received_.emplace(*job.sources.environment, *job.sources.lights, job.environmentLights, sampler_);
+        received_.emplace(*job.sources.environment, *job.sources.lights, job.environmentLights, sampler_,
+                          casts_);
 }
 
 // Whose visibility something asks for.
@@ -562,7 +563,9 @@ void TileShaderOf<T>::putSeen(const Bucket& bucket, const Group& group, const Su
     put(ShadeOutput::open, group, vec3(around.open, T(0.0), T(0.0)));
     put(ShadeOutput::bentNormals, group, around.bentNormal);
     if (!received_) return;
-    const vec3 irradiance = received_->at(surface.normal, around.open, around.bentNormal, reaching);
+    const vec3 irradiance =
+        received_->receivedIrradiance(surface.normal, around.open, around.bentNormal, received_->lights(),
+                                      {visibility.first, visibility.stride}, hasShadows);
     put(ShadeOutput::irradiance, group, irradiance);
     if (hasDiffusePart(material))
         put(ShadeOutput::environment, group,

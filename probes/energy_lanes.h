@@ -9,6 +9,7 @@
 #include "numeric/parallel.h"
 #include "probes/energy_passes.h"
 #include "probes/flux.h"
+#include "probes/summed_area.h"
 #include "probes/term_sums.h"
 
 namespace etalon {
@@ -96,27 +97,22 @@ void addRowsToTable(const Image<float>& radiance, int firstRow, const double* ro
         blue[r] = radiance.row(y, 2).data();
     }
     EnergyKernel<D> kernel{};
+    BlockSumsKernel<D, N> block;
     D rowSums(0.0);
     forEachLaneGroup<N>(width, [&](size_t first, int active) {
-        std::array<D, N> block;
 #pragma GCC unroll 8
         for (size_t r = 0; r < N; r++) {
-            block[r] = kernel.texelEnergy(
+            block.numbers[r] = kernel.texelEnergy(
                 {countedRadianceOf<N>(red[r] + first, active), countedRadianceOf<N>(green[r] + first, active),
                  countedRadianceOf<N>(blue[r] + first, active)},
                 D(rowWeights[firstRow + static_cast<int>(r)]));
         }
-        transposeLanes(block);
+        transposeLanes(block.numbers);
+        rowSums = block.sumAlong(rowSums, N);
+        transposeLanes(block.numbers);
+        block.sumAlong(above ? loadActive<double, N>(above + first, active) : D(0.0), N);
 #pragma GCC unroll 8
-        for (size_t x = 0; x < N; x++) block[x] = rowSums = rowSums + block[x];
-        transposeLanes(block);
-        D column(0.0);
-        if (above) column = loadActive<double, N>(above + first, active);
-#pragma GCC unroll 8
-        for (size_t r = 0; r < N; r++) {
-            column = column + block[r];
-            storeActive(column, table + r * width + first, active);
-        }
+        for (size_t r = 0; r < N; r++) storeActive(block.numbers[r], table + r * width + first, active);
     });
 }
 

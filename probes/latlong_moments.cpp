@@ -12,57 +12,86 @@ namespace {
 // Partial sums along a row: the texels x, x + 8, x + 16, ... belong to one.
 inline constexpr int kMomentParts = 8;
 
-// The functions of longitude that a row is multiplied with, each `padded` long and 0 behind the width:
-// 1, cos, sin, cos 2, sin 2, ...
+// The texts over T, and what they read and write.
+template <class T>
+struct LatLongMomentsKernel {
+#include "numeric/kernel_scope.inc"
+#include "numeric/kernels/vector.glsl"
+
+    // Functions of longitude, each `padded` long and 0 behind the width.
+    double* longitudes = nullptr;
+    size_t padded = 0, column = 0;
+    const TexelRow* row = nullptr;
+    const double* moments = nullptr;  // of the functions, three channels each
+    HarmonicsKernel<T>* harmonics = nullptr;
+
+    real longitudeValue(int function, int x) const {
+        return Number<T>::load(longitudes + static_cast<size_t>(function) * padded + x);
+    }
+    void setLongitudeValue(int function, real value) {
+        longitudes[static_cast<size_t>(function) * padded + column] = numberLane(value, 0);
+    }
+    vec3 texelRadiance(int x) const {
+        const auto channel = [&](size_t c) { return Number<T>::load(row->radiance[c].data() + x); };
+        return {channel(0), channel(1), channel(2)};
+    }
+    vec3 azimuthalMoment(int function) const {
+        const double* of = moments + 3 * static_cast<size_t>(function);
+        return {T(of[0]), T(of[1]), T(of[2])};
+    }
+    void findHarmonics(vec3 direction, int degree) { harmonics->findHarmonics(direction, degree); }
+    real harmonicValue(int i) const { return harmonics->harmonicValue(i); }
+    void setProjectedSum(int i, const vec3& sum) { harmonics->setProjectedSum(i, sum); }
+#include "probes/kernels/latlong_moments.glsl"
+};
+
+// The functions of longitude that a row is multiplied with.
 struct LongitudeTable {
     LongitudeTable(int width, int degree)
         : padded((static_cast<size_t>(width) + kMomentParts - 1) / kMomentParts * kMomentParts),
           count(2 * static_cast<size_t>(degree) + 1),
           values(count * padded) {
         const LatLongGrid equator(width, 1);
-        for (int x = 0; x < width; x++) {
-            const glm::dvec3 d = equator.direction(x, 0);
-            double cosine = 1, sine = 0;
-            for (size_t m = 0; m <= static_cast<size_t>(degree); m++) {
-                const auto i = static_cast<size_t>(x);
-                if (m > 0) values[(2 * m - 1) * padded + i] = cosine;
-                values[2 * m * padded + i] = m > 0 ? sine : 1;
-                const double next = cosine * d.z - sine * d.x;
-                sine = cosine * d.x + sine * d.z;
-                cosine = next;
-            }
-        }
+        LatLongMomentsKernel<double> kernel{.longitudes = values.data(), .padded = padded};
+        for (; kernel.column < static_cast<size_t>(width); kernel.column++)
+            kernel.findLongitudes(equator.direction(static_cast<int>(kernel.column), 0), degree);
     }
     size_t padded, count;
     std::vector<double> values;
 };
 
-// The sums over x of the row's three channels times `functions` rows of the table, kMomentParts partial sums
-// folded; moments[function * 3 + channel].
+// With a number of functions that is known where it is compiled, so that the sums stay in registers.
 template <class D, int functions>
-void findMoments(const TexelRow& row, const double* table, size_t padded, double* moments) {
+[[gnu::flatten]] typename LatLongMomentsKernel<D>::Moments momentsOf(LatLongMomentsKernel<D> kernel,
+                                                                     int function, int part) {
+    return kernel.momentsOf(function, functions, part, static_cast<int>(kernel.padded), kMomentParts);
+}
+
+// The moments of a row, kMomentParts partial sums folded: the first 3 table.count of `sums`, which holds
+// kMomentParts times as many, padded to lanes of D.
+template <class D>
+void findMoments(const TexelRow& row, LongitudeTable& table, std::vector<double>& sums) {
     constexpr int kWidth = Number<D>::lanes;
     static_assert(kMomentParts % kWidth == 0);
-    std::array<double, 3 * functions * kMomentParts> parts;
-    for (int part = 0; part < kMomentParts; part += kWidth) {
-        std::array<D, 3 * functions> sums;
-        sums.fill(D(0.0));
-        for (size_t x = static_cast<size_t>(part); x < padded; x += kMomentParts)
-            for (size_t c = 0; c < 3; c++) {
-                const D radiance = Number<D>::load(row.radiance[c].data() + x);
-                for (size_t f = 0; f < functions; f++)
-                    sums[3 * f + c] =
-                        sums[3 * f + c] + radiance * Number<D>::loadKept(table + f * padded + x);
+    LatLongMomentsKernel<D> kernel{.longitudes = table.values.data(), .padded = table.padded, .row = &row};
+    const size_t terms = sums.size() / kMomentParts;
+    const auto count = static_cast<int>(table.count);
+    std::array<double, kWidth> lanes;
+    for (int part = 0; part < kMomentParts; part += kWidth)
+        for (int f = 0; f < count; f += 3) {
+            const int functions = std::min(3, count - f);
+            const auto found = functions == 3   ? momentsOf<D, 3>(kernel, f, part)
+                               : functions == 2 ? momentsOf<D, 2>(kernel, f, part)
+                                                : momentsOf<D, 1>(kernel, f, part);
+            const std::array of = {found.ofFirst, found.ofSecond, found.ofThird};
+            for (int i = 0; i < 3 * functions; i++) {
+                Number<D>::storeKept(of[static_cast<size_t>(i / 3)][i % 3], lanes.data());
+                for (int lane = 0; lane < kWidth; lane++)
+                    sums[static_cast<size_t>(part + lane) * terms + static_cast<size_t>(3 * f + i)] =
+                        lanes[static_cast<size_t>(lane)];
             }
-        for (size_t i = 0; i < sums.size(); i++)
-            Number<D>::storeKept(sums[i], &parts[i * kMomentParts] + part);
-    }
-    for (size_t i = 0; i < 3 * functions; i++) {
-        double* p = &parts[i * kMomentParts];
-        for (int half = kMomentParts / 2; half > 0; half /= 2)
-            for (int j = 0; j < half; j++) p[j] = p[j] + p[j + half];
-        moments[i] = p[0];
-    }
+        }
+    foldTerms<D>(sums.data(), terms, kMomentParts);
 }
 
 // See projectHarmonics. The coefficients of a probe about its image's axis: the harmonics are those of the
@@ -74,37 +103,23 @@ SphericalHarmonics projectLatLongOver(const Probe& probe, int degree, int thread
     checkProbe(probe);
     const TexelGrid grid(probe.shape);
     const LatLongGrid meridian(1, probe.shape.height);
-    const LongitudeTable table(probe.shape.width, degree);
+    LongitudeTable table(probe.shape.width, degree);
     const size_t terms = 3 * result.coefficients.size();
     const auto rows = static_cast<size_t>(probe.shape.height);
     std::vector<double> rowSums(rows * terms);
     parallelFor(rows, threads, [&](size_t r) {
         const int y = static_cast<int>(r);
         const TexelRow row = readRadiance(probe, 0, y);
-        std::vector<double> moments(3 * table.count);
-        for (size_t f = 0; f < table.count;) {
-            const double* functions = table.values.data() + f * table.padded;
-            double* to = moments.data() + 3 * f;
-            const size_t left = table.count - f;
-            if (left >= 3)
-                findMoments<D, 3>(row, functions, table.padded, to), f += 3;
-            else if (left == 2)
-                findMoments<D, 2>(row, functions, table.padded, to), f += 2;
-            else
-                findMoments<D, 1>(row, functions, table.padded, to), f += 1;
-        }
-        // On the meridian of longitude 0 the harmonics of m >= 0 are their functions of latitude.
+        std::vector<double> moments(kMomentParts * paddedTerms<D>(3 * table.count));
+        findMoments<D>(row, table, moments);
+        HarmonicsKernel<double> harmonics;
+        std::vector<glm::dvec3> sums(result.coefficients.size());
+        harmonics.projectedSums = sums.data();
+        LatLongMomentsKernel<double> kernel{.moments = moments.data(), .harmonics = &harmonics};
         const glm::dvec3 d = meridian.direction(0, y);
-        HarmonicsKernel<double> kernel;
-        kernel.findHarmonics({d.z, d.x, d.y}, degree);
-        for (int l = 0; l <= degree; l++)
-            for (int m = -l; m <= l; m++) {
-                const double weight =
-                    kernel.harmonicValue(harmonicIndex(l, m < 0 ? -m : m)) * grid.solidAngle_sr(0, 0, y);
-                const auto moment = static_cast<size_t>(m == 0 ? 0 : m > 0 ? 2 * m - 1 : -2 * m);
-                const auto term = r * terms + 3 * static_cast<size_t>(harmonicIndex(l, m));
-                for (size_t c = 0; c < 3; c++) rowSums[term + c] = moments[3 * moment + c] * weight;
-            }
+        kernel.projectMoments({d.z, d.x, d.y}, grid.solidAngle_sr(0, 0, y), degree);
+        for (size_t i = 0; i < terms; i++)
+            rowSums[r * terms + i] = sums[i / 3][static_cast<glm::length_t>(i % 3)];
     });
     addInPairs<double>(rowSums, terms);
     for (size_t i = 0; i < terms; i++)

@@ -42,9 +42,10 @@ EnergyTable::EnergyTable(const Image<float>& radiance, std::span<const double> r
     });
     bandStart_.resize(static_cast<size_t>(bands) * width);
     for (size_t band = 1; band < static_cast<size_t>(bands); band++)
-        for (size_t x = 0; x < width; x++)
-            bandStart_[band * width + x] =
-                bandStart_[(band - 1) * width + x] + inBand_[(band * kBandRows - 1) * width + x];
+        for (size_t x = 0; x < width; x++) {
+            BlockSumsKernel<double, 1> lastRow{{inBand_[(band * kBandRows - 1) * width + x]}};
+            bandStart_[band * width + x] = lastRow.sumAlong(bandStart_[(band - 1) * width + x], 1);
+        }
 }
 
 EnergyTable::EnergyTable(const Image<double>& entries)

@@ -10,6 +10,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <span>
 #include <vector>
@@ -86,6 +87,17 @@ struct SummedAreaKernel {
 #include "probes/kernels/summed_area.glsl"
 };
 
+// The text over T for kNumbers numbers of each lane's row, or column.
+template <class T, size_t kNumbers>
+struct BlockSumsKernel {
+#include "numeric/kernel_scope.inc"
+    std::array<T, kNumbers> numbers;
+
+    real tableNumber(int i) const { return numbers[static_cast<size_t>(i)]; }
+    void setTableNumber(int i, real sum) { numbers[static_cast<size_t>(i)] = sum; }
+#include "probes/kernels/summed_area.glsl"
+};
+
 // The values, each rounded once to T.
 template <class T>
 Image<double> roundedValues(const Image<double>& values, int threads) {
@@ -118,7 +130,7 @@ Image<double> summedArea(const Image<double>& values, int threads) {
         const int lines = sumsColumns ? table.width() : table.height();
         parallelFor((static_cast<size_t>(lines) + kWidth - 1) / kWidth, threads, [&](size_t group) {
             SummedAreaKernel<T> kernel{&table, sumsColumns, static_cast<int>(group) * kWidth};
-            kernel.sumAlong(sumsColumns ? table.height() : table.width());
+            kernel.sumAlong(T(0.0), sumsColumns ? table.height() : table.width());
         });
     }
     return table;

@@ -38,16 +38,15 @@ template <class S, int N>
                                                             Lanes<S, N> z) {
     if (format == DepthFormat::d32f) return storedFloatDepth(z);
     z = RasterKernels<Lanes<S, N>>::clampOf(z, Lanes<S, N>(0.0), Lanes<S, N>(1.0));
-    using Wide = Lanes<double, N>;
     const double levels = depthLevels(format);
     if (rounding == DepthRounding::driver) {
         const Lanes<float, N> product = convertLanes<float>(z) * Lanes<float, N>(levels);
         // Adding and subtracting 1.5 * 2^52 rounds to a whole number, ties to even.
-        const Wide toWhole(6755399441055744.0);
+        const Lanes<double, N> toWhole(6755399441055744.0);
         return convertLanes<int32_t>((convertLanes<double>(product) + toWhole) - toWhole);
     }
-    RasterKernels<Wide> kernels;
-    return convertLanes<int32_t>(kernels.unormDepth(convertLanes<double>(z), Wide(levels)));
+    RasterKernels<Lanes<S, N>> kernels;
+    return convertLanes<int32_t>(kernels.unormDepth(z, Lanes<S, N>(levels)));
 }
 
 // The bias of rule 7 for a triangle, in depth units; 0 for the default DepthBias.

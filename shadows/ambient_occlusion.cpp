@@ -26,12 +26,7 @@ glm::dvec3 unitOr(const glm::dvec3& v, const glm::dvec3& otherwise) {
     return Kernels().unitOr3(v, otherwise);
 }
 
-constexpr Kernels::OcclusionSum kNothing = {0, 0, glm::dvec3(0)};
-
-Occlusion occlusionOf(Kernels kernels, const Kernels::OcclusionSum& sum, const glm::dvec3& normal) {
-    const Kernels::OpenPart part = kernels.openPart(sum, normal);
-    return {part.open, part.bentNormal};
-}
+Occlusion occlusionOf(const Kernels::OpenPart& part) { return {part.open, part.bentNormal}; }
 
 // Two unit vectors across a unit vector.
 std::array<glm::dvec3, 2> acrossOf(const glm::dvec3& n) {
@@ -44,11 +39,15 @@ std::array<glm::dvec3, 2> acrossOf(const glm::dvec3& n) {
 // Draws a scene again and again into small views.
 class Drawer {
   public:
-    Drawer(std::span<const PlacedMesh> placed, int width, int height)
-        : placed_(placed), target_(width, height, format()), vertices_(placed.size()) {}
+    explicit Drawer(std::span<const PlacedMesh> placed) : placed_(placed), vertices_(placed.size()) {}
 
+    static RenderTarget target(int width, int height) {
+        RenderTargetFormat format;
+        format.real = RasterReal::fp64;
+        return {width, height, format};
+    }
     // Both sides of every triangle; nearer than the near plane counts as on it.
-    const RenderTarget& draw(const View& view, const RasterOptions& raster) {
+    void draw(const View& view, const RasterOptions& raster, RenderTarget& target) {
         std::vector<Draw> draws;
         for (size_t i = 0; i < placed_.size(); i++) {
             toClipSpace(placed_[i], view, RasterReal::fp64, raster.threads, vertices_[i]);
@@ -61,18 +60,11 @@ class Drawer {
         }
         RasterOptions cleared = raster;
         cleared.clear = true;
-        rasterize(target_, {0, 0, target_.width(), target_.height()}, draws, cleared);
-        return target_;
+        rasterize(target, {0, 0, target.width(), target.height()}, draws, cleared);
     }
 
   private:
-    static RenderTargetFormat format() {
-        RenderTargetFormat format;
-        format.real = RasterReal::fp64;
-        return format;
-    }
     std::span<const PlacedMesh> placed_;
-    RenderTarget target_;
     std::vector<UninitializedVector<ClipVertex>> vertices_;
 };
 
@@ -83,26 +75,27 @@ class Hemicube {
              const HemicubeWeights& weights)
         : options_(options),
           weights_(weights),
-          top_(placed, weights.size, weights.size),
-          side_(placed, weights.size, weights.size / 2) {}
+          drawer_(placed),
+          top_(Drawer::target(weights.size, weights.size)),
+          side_(Drawer::target(weights.size, weights.size / 2)) {}
 
     Occlusion at(const OcclusionPoint& point) {
         const auto [u, v] = acrossOf(point.normal);
         const glm::dvec3& n = point.normal;
         camera_.position = point.position_m + options_.offset_m * n;
-        sum_ = kNothing;
-        sum_.total = 1;  // the form factors of all texels
+        sum_ = Kernels().noDirections(1);
         // Right, up and backward are right-handed; up is towards the normal on the sides.
-        addFace(top_, weights_.top, v, u, n);
-        addFace(side_, weights_.side, -v, n, u);
-        addFace(side_, weights_.side, v, n, -u);
-        addFace(side_, weights_.side, u, n, v);
-        addFace(side_, weights_.side, -u, n, -v);
-        return occlusionOf({}, sum_, n);
+        addFace(0, top_, weights_.top, v, u, n);
+        addFace(1, side_, weights_.side, -v, n, u);
+        addFace(2, side_, weights_.side, v, n, -u);
+        addFace(3, side_, weights_.side, u, n, v);
+        addFace(4, side_, weights_.side, -u, n, -v);
+        return occlusionOf(Kernels().openPart(sum_, n));
     }
 
   private:
-    void addFace(Drawer& drawer, const std::vector<double>& weights, const glm::dvec3& right,
+    // Draws it and adds what it shows; it is not kept.
+    void addFace(int face, RenderTarget& target, const std::vector<double>& weights, const glm::dvec3& right,
                  const glm::dvec3& up, const glm::dvec3& forward) {
         const int size = weights_.size, height = static_cast<int>(weights.size()) / size;
         camera_.width = size;
@@ -115,16 +108,21 @@ class Hemicube {
         camera_.near_m = isLimited ? options_.maxDistance_m * 0x1p-10 : 1;
         camera_.far_m = HUGE_VAL;
         const View view = cameraView(camera_);
+        drawer_.draw(view, {1, 64, false}, target);
+        const Kernels::View drawn = {.target = &target,
+                                     .face = {view.forward, view.perX, view.perY, view.centreX_px,
+                                              view.centreY_px, size, height, isLimited ? 1 : 0},
+                                     .weights = weights};
         Kernels kernels;
-        kernels.view = &drawer.draw(view, {1, 64, false});
-        kernels.weights = weights;
-        sum_ = kernels.addHemicubeFace(sum_, {view.forward, view.perX, view.perY, view.centreX_px,
-                                              view.centreY_px, size, height, isLimited ? 1 : 0});
+        kernels.views = {&drawn, 1};
+        kernels.firstView = face;
+        sum_ = kernels.addHemicubeFaces(sum_, face, face + 1);
     }
 
     const HemicubeOptions& options_;
     const HemicubeWeights& weights_;
-    Drawer top_, side_;
+    Drawer drawer_;
+    RenderTarget top_, side_;
     PinholeCamera camera_;
     Kernels::OcclusionSum sum_;
 };
@@ -189,9 +187,10 @@ std::vector<OcclusionPoint> occlusionPointsOf(const View& view, const Image<floa
                 points.emplace_back();
                 continue;
             }
-            const glm::dvec3 ray = Kernels().rayFromCentre(
-                view.forward, view.perX, view.perY, x + 0.5 - view.centreX_px, y + 0.5 - view.centreY_px);
-            points.push_back({view.eye + distance_m * unitOr(ray, view.forward), unitOr(n, glm::dvec3(0))});
+            points.push_back(
+                {Kernels().seenPoint(view.eye, view.forward, view.perX, view.perY, x + 0.5 - view.centreX_px,
+                                     y + 0.5 - view.centreY_px, distance_m),
+                 unitOr(n, glm::dvec3(0))});
         }
     return points;
 }
@@ -250,8 +249,9 @@ std::vector<Occlusion> directionalOcclusion(std::span<const PlacedMesh> placed,
     ETALON_CHECK(options.directions >= 1 && options.mapSize >= 1, "{} directions, maps of {}",
                  options.directions, options.mapSize);
     const Ball ball = ballAround(placed);
-    std::vector<Kernels::OcclusionSum> sums(points.size(), kNothing);
-    Drawer drawer(placed, options.mapSize, options.mapSize);
+    std::vector<Kernels::OcclusionSum> sums(points.size(), Kernels().noDirections(0));
+    Drawer drawer(placed);
+    RenderTarget target = Drawer::target(options.mapSize, options.mapSize);
     const int size = options.mapSize;
     // A plane within a texel is at most half a diagonal from where the texel's centre shows it.
     const double texel_m = 2 * ball.radius_m / size, offset_m = 0.75 * texel_m;
@@ -260,21 +260,26 @@ std::vector<Occlusion> directionalOcclusion(std::span<const PlacedMesh> placed,
         const glm::dvec3 towards = spiralDirection(k, options.directions);
         // Room for what is moved off the surface.
         const View view = ballView(towards, ball.centre, ball.radius_m * (1 + 2.0 / size), size);
-        const Kernels::ParallelView from = {
-            towards, view.worldToClip[0], view.worldToClip[1], view.worldToClip[2], size, offset_m};
+        drawer.draw(view, options.raster, target);
+        const Kernels::View drawn = {.target = &target,
+                                     .parallel = {towards, view.worldToClip[0], view.worldToClip[1],
+                                                  view.worldToClip[2], size, offset_m}};
+        // One view at a time is kept.
         Kernels kernels;
-        kernels.view = &drawer.draw(view, options.raster);
+        kernels.views = {&drawn, 1};
+        kernels.firstView = k;
         parallelFor(
             (points.size() + kPointsPerTask - 1) / kPointsPerTask, options.raster.threads, [&](size_t task) {
                 Kernels ofTask = kernels;
                 const size_t end = std::min(points.size(), (task + 1) * kPointsPerTask);
                 for (size_t i = task * kPointsPerTask; i < end; i++)
-                    sums[i] = ofTask.addParallelView(sums[i], points[i].position_m, points[i].normal, from);
+                    sums[i] =
+                        ofTask.addParallelViews(sums[i], points[i].position_m, points[i].normal, k, k + 1);
             });
     }
     std::vector<Occlusion> result(points.size());
     for (size_t i = 0; i < points.size(); i++)
-        if (points[i].normal != glm::dvec3(0)) result[i] = occlusionOf({}, sums[i], points[i].normal);
+        result[i] = occlusionOf(Kernels().openPart(sums[i], points[i].normal));
     return result;
 }
 

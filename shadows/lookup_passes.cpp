@@ -133,6 +133,7 @@ void ShadowLookupOf<T>::find(const LitPoints& points, std::span<double> visibili
 template <class T>
 void ShadowLookupOf<T>::findByText(const LitPoints& points, std::span<double> visibility) const {
     K kernels{buffers_};
+    const typename K::Halves key{buffers_.turns.keyHigh(), buffers_.turns.keyLow()};
     forEachLaneGroup<N>(points.size(), [&](size_t first, int active) {
         const auto load = [&](const std::array<std::vector<double>, 3>& from) {
             const auto number = [&](size_t c) { return Number<T>::load(&from[c][first], active); };
@@ -140,7 +141,7 @@ void ShadowLookupOf<T>::findByText(const LitPoints& points, std::span<double> vi
         };
         const auto turnOf = [&](int i) {
             const size_t at = first + static_cast<size_t>(std::min(i, active - 1));
-            return buffers_.turns.numberOf(points.x_px[at], points.y_px[at]);
+            return kernels.turnOfPixel(key, points.x_px[at], points.y_px[at], kPatternTurns);
         };
         integer turn(0);
         if (!buffers_.pattern.empty()) {

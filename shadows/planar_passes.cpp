@@ -37,13 +37,14 @@ void planarVisibilityOver(const PlanarShadow& shadow, const PlanarSampling& samp
     map.filterMode = static_cast<int>(sampling.filter);
     map.fractionBits = sampling.fractionBits;
     forEachLaneGroup<Number<T>::lanes>(listed.size(), [&](size_t first, int active) {
-        const auto coordinate = [&](size_t c) {
+        const auto listedOf = [&](std::span<const double> values) {
             return Number<T>::generate([&](int lane) {
-                return points.position_m[c][listed[first + static_cast<size_t>(std::min(lane, active - 1))]];
+                return values[listed[first + static_cast<size_t>(std::min(lane, active - 1))]];
             });
         };
-        const T value =
-            kernel.planarVisibility(texture, vec3(coordinate(0), coordinate(1), coordinate(2)), map);
+        const auto& p = points.position_m;
+        const T value = kernel.alsoPassing(listedOf(visibility), texture,
+                                           vec3(listedOf(p[0]), listedOf(p[1]), listedOf(p[2])), map);
         for (int i = 0; i < active; i++)
             visibility[listed[first + static_cast<size_t>(i)]] = numberLane(value, i);
     });

@@ -15,8 +15,8 @@ struct PlanarSampling {
 };
 
 struct PlanarPasses {
-    // visibility[i] for the points i that are listed; the others are left as they are. The shadow is not
-    // empty.
+    // Multiplies visibility[i] with what the shadow lets pass, for the points i that are listed; the others are
+    // left as they are. The shadow is not empty.
     void (*visibility)(const PlanarShadow& shadow, const PlanarSampling& sampling, const LitPoints& points,
                        std::span<const uint32_t> listed, std::span<double> visibility);
 };

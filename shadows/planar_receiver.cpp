@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "shadows/flat_mesh.h"
+
 namespace etalon {
 namespace {
 
@@ -44,8 +46,7 @@ std::optional<PlanarReceiver> planarReceiverOf(const PlacedMesh& mesh) {
         const double square = n.x * n.x + (n.y * n.y + n.z * n.z);
         if (!std::isfinite(square)) return std::nullopt;
         if (square > largestSquare) largestSquare = square, normal = n, origin = a;
-        for (const glm::dvec3* p : {&a, &b, &c})
-            largestCoordinate = std::max({largestCoordinate, std::abs(p->x), std::abs(p->y), std::abs(p->z)});
+        largestCoordinate = std::max({largestCoordinate, largestOf(a), largestOf(b), largestOf(c)});
     }
     if (largestSquare == 0) return std::nullopt;
     if (mesh.mirrored) normal = {-normal.x, -normal.y, -normal.z};
@@ -57,7 +58,7 @@ std::optional<PlanarReceiver> planarReceiverOf(const PlacedMesh& mesh) {
         receiver.corners_m.emplace_back(p.x, p.y);
     }
     for (const uint32_t i : indices)
-        if (!(std::abs(receiver.frame.toFrame(mesh.positions[i]).z) <= kPlanarTolerance * largestCoordinate))
+        if (!(std::abs(receiver.frame.toFrame(mesh.positions[i]).z) <= kFlatness * largestCoordinate))
             return std::nullopt;
     return receiver;
 }

@@ -25,11 +25,7 @@ struct PlanarReceiver {
     PlanarReceiver reversed() const;
 };
 
-// The largest distance of a vertex from the plane of a receiver, relative to the mesh's largest coordinate:
-// some roundings of fp32.
-inline constexpr double kPlanarTolerance = 0x1p-20;
-
-// The receiver that a placed mesh is, if its vertices are in one plane within kPlanarTolerance: that of its
+// The receiver that a placed mesh is, if its vertices are in one plane to kFlatness (shadows/flat_mesh.h): that of its
 // triangle of largest area, whose vertices in their order give the front (counter-clockwise, as the mesh is
 // placed). None for a mesh without area.
 std::optional<PlanarReceiver> planarReceiverOf(const PlacedMesh& mesh);

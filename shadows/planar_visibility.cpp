@@ -30,14 +30,12 @@ void PlanarVisibility::find(size_t light, const LitPoints& points, std::span<dou
     std::fill(visibility.begin(), visibility.end(), 1.0);
     const auto passes = passesIn<PlanarPasses>(profile_->fragment);
     std::vector<uint32_t> listed;
-    std::vector<double> ofEntry(points.size());
     for (const Entry& entry : entries_) {
         if (entry.light != light || entry.shadow.shadow.empty()) continue;
         listed.clear();
         for (uint32_t i = 0; i < points.size(); i++)
             if (points.instance[i] == entry.instance) listed.push_back(i);
-        passes->visibility(entry.shadow, samplingOf(*profile_), points, listed, ofEntry);
-        for (const uint32_t i : listed) visibility[i] *= ofEntry[i];
+        passes->visibility(entry.shadow, samplingOf(*profile_), points, listed, visibility);
     }
 }
 

@@ -21,7 +21,8 @@ class PlanarVisibility final : public LightVisibility {
         uint32_t instance = 0;  // the receiver
         PlanarShadow shadow;
     };
-    // The profile outlives the object. Several entries of one light and instance: their product.
+    // The profile outlives the object. Several entries of one light and instance: their product, in
+    // the fragment arithmetic.
     PlanarVisibility(std::vector<Entry> entries, const Profile& profile);
 
     bool casts(size_t light) const override;

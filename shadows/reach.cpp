@@ -1,15 +1,15 @@
 #include "shadows/reach.h"
-#include "numeric/vectors.h"
 
 #include <algorithm>
 #include <cmath>
+
+#include "numeric/vectors.h"
+#include "shadows/flat_mesh.h"
 
 namespace etalon {
 namespace {
 
 constexpr double kRoundings = 64;
-
-double largestOf(const glm::dvec3& a) { return std::max({std::fabs(a.x), std::fabs(a.y), std::fabs(a.z)}); }
 
 // Whether the normals of a triangle's corners, at any of its points, may turn to the light.
 bool isReached(const PlacedMesh& placed, const uint32_t* corners, const SurfaceLight& light,
@@ -74,32 +74,34 @@ bool lightReaches(const PlacedMesh& placed, bool twoSided, const SurfaceLight& l
 
 bool isAllOpen(std::span<const PlacedMesh> placed, std::span<const SurfaceInstance> instances,
                const std::vector<bool>& marked, int mapSize, int significandBits) {
+    // A point is looked up 3/4 of a texel above its surface, at most sqrt(1/2) of one from the texel's centre: it
+    // is covered only by what is more than 1/24 of a texel above the plane through it across its normal. That much
+    // no vertex is: its distance from the mesh's plane and the point's are at most 1/128 each, and the normal leans
+    // by at most 1/64 over the scene's diameter. What is left is for snapped vertices (1/360) and for roundings.
     constexpr double kPartOfTexel = 1.0 / 64;
     const Bounds bounds(placed);
     const double radius_m = bounds.radius();
     if (!(radius_m > 0)) return true;
     const double tolerance_m = 2 * radius_m / mapSize * kPartOfTexel;
     if (!(std::ldexp(kRoundings, -significandBits) * std::max(bounds.largest, 2 * radius_m) <
-          4 * tolerance_m))
+              2 * tolerance_m &&
+          kFlatness * bounds.largest <= tolerance_m / 2))
         return false;
     const double tilt = tolerance_m / (2 * radius_m);
     for (size_t i = 0; i < placed.size(); i++) {
         if (!marked[i] || placed[i].mesh->indices.empty()) continue;
         const PlacedMesh& mesh = placed[i];
-        const uint32_t first = mesh.mesh->indices[0];
-        const glm::dvec3 normal = mesh.normals[first] / lengthOf(mesh.normals[first]);
+        const MeshPlane plane = planeOf(mesh);
+        if (!plane.exists) return false;
+        const double side = dotOf(plane.normal, mesh.normals[mesh.mesh->indices[0]]) > 0 ? 1 : -1;
         for (const uint32_t v : mesh.mesh->indices) {
-            const double size = lengthOf(mesh.normals[v]);
-            const glm::dvec3 d = mesh.normals[v] / size - normal;
-            if (!(largestOf(d) <= tilt)) return false;
-            if (!(std::fabs(dotOf(normal, mesh.positions[v] - mesh.positions[first])) <= tolerance_m))
-                return false;
+            const glm::dvec3 lean = unitOf(mesh.normals[v]) - side * plane.normal;
+            if (!(lengthOf(lean) <= tilt)) return false;
         }
         for (const PlacedMesh& other : placed)
             for (const glm::dvec3& p : other.positions) {
-                const double height_m = dotOf(normal, p - mesh.positions[first]);
-                if (height_m > tolerance_m || (instances[i].twoSided && height_m < -tolerance_m))
-                    return false;
+                const double height_m = side * plane.above(p), allowed_m = plane.toleranceAt_m(p);
+                if (height_m > allowed_m || (instances[i].twoSided && height_m < -allowed_m)) return false;
             }
     }
     return true;

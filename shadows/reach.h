@@ -20,9 +20,9 @@ int significandBitsOf(const Arithmetic& arithmetic);
 bool lightReaches(const PlacedMesh& placed, bool twoSided, const SurfaceLight& light, int significandBits);
 
 // True only if directionalOcclusion() (shadows/ambient_occlusion.h) with maps of mapSize texels finds that all points
-// of the marked instances are open: each of these is flat, its normals are that of its plane, and no vertex of the
-// scene lies in front of it, or, where it is seen from both sides, off its plane, by more than 1/64 of a texel. Where
-// the arithmetic rounds points and normals by as much as that, false.
+// of the marked instances are open: each of these is flat (shadows/flat_mesh.h), its normals are that of its plane to
+// 1/64 of a texel over the scene, and no vertex of the scene lies in front of it, or, where it is seen from both sides,
+// off its plane. Where the arithmetic, or that of vertices, rounds points and normals by as much as that, false.
 bool isAllOpen(std::span<const PlacedMesh> placed, std::span<const SurfaceInstance> instances,
                const std::vector<bool>& marked, int mapSize, int significandBits);
 

@@ -3,14 +3,13 @@
 #include <cmath>
 
 #include "numeric/vectors.h"
+#include "shadows/flat_mesh.h"
 #include "shadows/shadow_map.h"
 
 namespace etalon {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// A vertex this much of the largest coordinate away from a plane lies in it: the error of fp32 vertices.
-constexpr double kFlatness = 0x1p-20;
 // The layer's depths go beyond those of the scene by this part of their range.
 constexpr double kDepthMargin = 0x1p-10;
 // Texel edges of snapped layers have so many significant bits, so that they rarely change.
@@ -111,52 +110,14 @@ Box boxOf(const PlacedMesh& mesh) {
     return box;
 }
 
-// The plane of a flat mesh: dotOf(normal, p) = offset with a unit normal; none where the mesh is not flat.
-struct Plane {
-    bool exists = false;
-    glm::dvec3 normal{0};
-    double offset = 0, tolerance_m = 0;
-    double above(const glm::dvec3& p) const { return dotOf(normal, p) - offset; }
-};
-Plane planeOf(const PlacedMesh& mesh) {
-    Plane plane;
-    if (mesh.positions.empty()) return plane;
-    const auto farthestOf = [&](auto&& measure) {
-        size_t best = 0;
-        double most = -1;
-        for (size_t i = 0; i < mesh.positions.size(); i++) {
-            const double value = measure(mesh.positions[i]);
-            if (value > most) most = value, best = i;
-        }
-        return mesh.positions[best];
-    };
-    const glm::dvec3 a = mesh.positions.front();
-    const glm::dvec3 ab = farthestOf([&](const glm::dvec3& p) { return dotOf(p - a, p - a); }) - a;
-    const auto across = [&](const glm::dvec3& p) { return crossOf(ab, p - a); };
-    glm::dvec3 normal = across(farthestOf([&](const glm::dvec3& p) { return dotOf(across(p), across(p)); }));
-    const double length = std::sqrt(dotOf(normal, normal));
-    if (!(length > 0) || !std::isfinite(length)) return plane;
-    normal = scaledBy(normal, 1 / length);
-    double largest = 0;
-    for (const glm::dvec3& p : mesh.positions)
-        largest = std::max({largest, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
-    plane = {true, normal, dotOf(normal, a), largest * kFlatness};
-    for (const glm::dvec3& p : mesh.positions)
-        if (!(std::fabs(plane.above(p)) <= plane.tolerance_m)) return {};
-    return plane;
-}
-
 // Whether all of a receiver lies on the light's side of a flat caster.
-bool isBefore(const Plane& plane, const PlacedMesh& receiver, const SurfaceLight& light) {
+bool isBefore(const MeshPlane& plane, const PlacedMesh& receiver, const SurfaceLight& light) {
     const double side = light.kind == LightKind::directional ? dotOf(plane.normal, light.toLight)
                                                              : plane.above(light.position_m);
     const double error = light.kind == LightKind::directional ? kFlatness : plane.tolerance_m;
     if (std::fabs(side) <= error) return true;  // seen from its edge
-    for (const glm::dvec3& p : receiver.positions) {
-        const double tolerance_m = std::max({plane.tolerance_m, kFlatness * std::fabs(p.x),
-                                             kFlatness * std::fabs(p.y), kFlatness * std::fabs(p.z)});
-        if (plane.above(p) * (side > 0 ? 1 : -1) < -tolerance_m) return false;
-    }
+    for (const glm::dvec3& p : receiver.positions)
+        if (plane.above(p) * (side > 0 ? 1 : -1) < -plane.toleranceAt_m(p)) return false;
     return true;
 }
 
@@ -273,7 +234,7 @@ ShadowFit fitShadowMap(std::span<const PlacedMesh> placed, const SurfaceLight& l
     if (light.kind == LightKind::spot && !projection.isCube) setAxes(projection, light.axis);
 
     std::vector<Extent> extents;
-    std::vector<Plane> planes;
+    std::vector<MeshPlane> planes;
     for (const PlacedMesh& mesh : placed) {
         extents.push_back(extentOf(mesh, projection));
         planes.push_back(planeOf(mesh));

@@ -25,6 +25,7 @@ struct ShadowKernels {
 #include "numeric/kernels/vector.glsl"
 #include "raster/kernels/sampler.glsl"
 #include "raster/kernels/cube_face.glsl"
+#include "shadows/kernels/pattern_turn.glsl"
 #include "shadows/kernels/shadow_point.glsl"
 #include "shadows/kernels/shadow_filter.glsl"
 #include "shadows/kernels/shadow_disc.glsl"

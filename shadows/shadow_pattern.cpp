@@ -35,7 +35,7 @@ std::vector<glm::dvec2> discPattern(int count, uint64_t seed) {
     return points;
 }
 
-PatternTurns::PatternTurns(uint64_t seed) : seed_(Random(seed).next()) {
+PatternTurns::PatternTurns(uint64_t seed) : key_(Random(seed).next()) {
     constexpr double kTwoPi = 0x1.921fb54442d18p+2;
     for (size_t i = 0; i < turns_.size(); i++) {
         const double angle_rad = kTwoPi * static_cast<double>(i) / kPatternTurns;

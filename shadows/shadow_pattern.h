@@ -17,17 +17,13 @@ inline constexpr int kPatternTurns = 256;
 class PatternTurns {
   public:
     explicit PatternTurns(uint64_t seed);
-    // The number of a pixel's turn.
-    int numberOf(uint32_t x_px, uint32_t y_px) const {
-        uint64_t h = seed_ ^ (uint64_t{x_px} | uint64_t{y_px} << 32);
-        h = (h ^ (h >> 30)) * 0xbf58476d1ce4e5b9u;
-        h = (h ^ (h >> 27)) * 0x94d049bb133111ebu;
-        return static_cast<int>((h >> 33) % kPatternTurns);
-    }
+    // What the number of a pixel's turn is made with (shadows/kernels/pattern_turn.glsl), in halves of 32 bits.
+    uint32_t keyHigh() const { return static_cast<uint32_t>(key_ >> 32); }
+    uint32_t keyLow() const { return static_cast<uint32_t>(key_); }
     const glm::dvec2& operator[](int number) const { return turns_[static_cast<size_t>(number)]; }
 
   private:
-    uint64_t seed_;
+    uint64_t key_;
     std::array<glm::dvec2, kPatternTurns> turns_;
 };
 

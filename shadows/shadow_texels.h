@@ -187,36 +187,20 @@ T ShadowTexels<T>::at(const Integer& layer, const Integer& x, const Integer& y) 
     return Number<T>::loadKept(texels.data());
 }
 
-// In double, in which unormDepth is exact; a register of doubles at a time.
+// In the scalar that the numbers are stored as, in which unormDepth is exact whatever the arithmetic.
 template <class T>
 typename ShadowTexels<T>::Boolean ShadowTexels<T>::isBelowStored(const T& texel, const T& depth) const {
     const auto isBelow = [&](const auto& stored, const auto& z) {
-        using Wide = std::decay_t<decltype(z)>;
-        RasterKernels<Wide> kernels;
-        return stored < kernels.unormDepth(z, Wide(levels_));
+        using Exact = std::decay_t<decltype(z)>;
+        RasterKernels<Exact> kernels;
+        return stored < kernels.unormDepth(z, Exact(levels_));
     };
-    if constexpr (N == 1) {
+    if constexpr (N == 1)
         return isBelow(numberLane(texel, 0), numberLane(depth, 0));
-    } else {
-        const auto lanesOf = [](const T& a) {
-            if constexpr (Number<T>::isNative)
-                return a;
-            else
-                return a.v;
-        };
-        const auto a = lanesOf(texel), b = lanesOf(depth);
-        if constexpr (std::is_same_v<Stored, double>) {
-            return Boolean(isBelow(a, b).m);
-        } else {
-            using Half = Lanes<int32_t, N / 2>;
-            const auto half = [&](const auto& stored, const auto& z) {
-                return Half(__builtin_convertvector(
-                    isBelow(convertLanes<double>(stored), convertLanes<double>(z)).m, typename Half::Vector));
-            };
-            return Boolean(
-                joinLanes(half(lowerLanes(a), lowerLanes(b)), half(upperLanes(a), upperLanes(b))).v);
-        }
-    }
+    else if constexpr (Number<T>::isNative)
+        return isBelow(texel, depth);
+    else
+        return Boolean(isBelow(texel.v, depth.v).m);
 }
 
 }  // namespace etalon

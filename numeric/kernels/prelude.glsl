@@ -18,6 +18,13 @@ real maxOf(real a, real b) { return select(a < b, b, a); }
 real clampOf(real x, real lo, real hi) { return minOf(hi, maxOf(lo, x)); }
 real absOf(real a) { return select(a < real(0.0), -a, a); }
 #define isAny(c) (c)
+// The upper 32 bits of the product of two of them.
+uint upperProduct(uint a, uint b) {
+    uint upper;
+    uint lower;
+    umulExtended(a, b, upper, lower);
+    return upper;
+}
 // For the texts written over `wide` (numeric/elementary.h has the C++ counterparts). They are macros, or a function
 // that no other shader calls and that its compiler leaves out, so that a shader without doubles stays one.
 #define wide double

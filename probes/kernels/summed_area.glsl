@@ -7,12 +7,14 @@ real boxSum(real lowerRight, real upperRight, real lowerLeft, real upperLeft) {
     return ((lowerRight - upperRight) - lowerLeft) + upperLeft;
 }
 
-// Replaces the `count` numbers of a row or a column of a table by their sums from the first one on. A table is that of
-// all its rows, then of all its columns.
-void sumAlong(int count) {
-    real sum = real(0.0);
+// Replaces `count` numbers of a row or a column of a table, one behind the other, by their sums from the first one of the
+// row or column on; returns the last sum. before: the sum of those in front of them, 0 at first. A table is that of all its
+// rows, then of all its columns.
+real sumAlong(real before, int count) {
+    real sum = before;
     for (int i = 0; i < count; i++) {
         sum = sum + tableNumber(i);
         setTableNumber(i, sum);
     }
+    return sum;
 }

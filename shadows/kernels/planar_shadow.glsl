@@ -37,3 +37,7 @@ real planarVisibility(texture t, vec3 p, PlanarMap m) {
                            inY.fraction);
     return real(1.0) - shadow;
 }
+
+// The part that also passes one texture more. before: what passes those that were looked up so far, 1 at first; a light's
+// textures of a receiver come in the order of its list.
+real alsoPassing(real before, texture t, vec3 p, PlanarMap m) { return before * planarVisibility(t, p, m); }

@@ -4,6 +4,7 @@
 // needs: raster/kernels/texture_scope.glsl
 // needs: raster/kernels/sampler.glsl
 // needs: raster/kernels/cube_face.glsl
+// needs: raster/kernels/depth_unorm.glsl
 // needs: shadows/kernels/shadow_scope.glsl
 // needs: shadows/kernels/shadow_point.glsl
 // needs: shadows/kernels/shadow_filter.glsl

@@ -1,5 +1,6 @@
 // What the texts of shadow maps read, in GLSL: the depths through a texture, pattern and turns in buffers. The C++
 // counterpart is shadows/shadow_scope.inc; the two say the same.
+// needs: raster/kernels/depth_unorm.glsl
 
 // Texels are numbers of the map's depth, or where references are quantised its stored integers.
 layout(set = 0, binding = 0) uniform sampler2DArray shadowMap;
@@ -17,10 +18,6 @@ real shadowTexel(integer layer, integer x, integer y) {
     bool isInside = x >= 0 && y >= 0 && x < size.x && y < size.y;
     return isInside ? texelFetch(shadowMap, ivec3(x, y, layer), 0).x : shadowOutside;
 }
-// Rule 6. The product of a float and an integer of 24 bits is exact in double, and so is what is added to it as far as
-// the whole number below the sum depends on it.
-boolean isBelowStored(real texel, real depth) {
-    return double(texel) < floor(double(depth) * double(shadowLevels) + 0.5LF);
-}
+boolean isBelowStored(real texel, real depth) { return texel < unormDepth(depth, shadowLevels); }
 vec2 patternPoint(int k) { return shadowPattern[k]; }
 vec2 patternTurn(integer i) { return shadowTurns[i]; }

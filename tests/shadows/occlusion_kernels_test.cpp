@@ -36,7 +36,7 @@ struct Views {
             const glm::dvec3 p = direction();
             points.push_back({p, direction()});
         }
-        for (int y = 0; y < kSize * kSize; y++) weights.push_back(random.uniform(0, 1));
+        for (int y = 0; y < kSize * kSize; y++) weights.push_back(random.uniform(0, 0.01));
     }
     glm::dvec3 direction() {
         const double x = random.uniform(-1, 1), y = random.uniform(-1, 1), z = random.uniform(0.1, 1);
@@ -61,9 +61,21 @@ std::vector<double> occlusionOver(const Views& views) {
     using vec3 = typename K::vec3;
     using vec4 = typename K::vec4;
     K kernels;
-    kernels.weights = views.weights;
     const auto constant = [](const glm::dvec3& v) { return vec3(T(v.x), T(v.y), T(v.z)); };
     const auto constant4 = [](const glm::dvec4& v) { return vec4(T(v.x), T(v.y), T(v.z), T(v.w)); };
+    std::vector<typename K::View> parallel, faces;
+    for (size_t k = 0; k < views.targets.size(); k++) {
+        const auto& rows = views.rows[k];
+        parallel.push_back({.target = &views.targets[k],
+                            .parallel = {constant(views.towards[k]), constant4(rows[0]), constant4(rows[1]),
+                                         constant4(rows[2]), kSize, T(0.01)}});
+        if (k % 4 == 0)
+            faces.push_back(
+                {.target = &views.targets[k],
+                 .face = {constant(views.towards[k]), constant({0.1, 0, 0}), constant({0, 0.1, 0}),
+                          T(kSize / 2), T(kSize / 2), kSize, kSize, k % 8 == 0 ? 1 : 0},
+                 .weights = views.weights});
+    }
     std::vector<double> result(kNumbers * views.points.size());
     forEachLaneGroup<Number<T>::lanes>(views.points.size(), [&](size_t first, int active) {
         const auto load = [&](const glm::dvec3 OcclusionPoint::*member) {
@@ -75,20 +87,17 @@ std::vector<double> occlusionOver(const Views& views) {
             return vec3(component(0), component(1), component(2));
         };
         const vec3 position = load(&OcclusionPoint::position_m), normal = load(&OcclusionPoint::normal);
-        const typename K::OcclusionSum nothing = {T(0.0), T(0.0), vec3(T(0.0), T(0.0), T(0.0))};
-        typename K::OcclusionSum sum = nothing, ofFaces = nothing;
-        ofFaces.total = T(100.0);
-        for (size_t k = 0; k < views.targets.size(); k++) {
-            kernels.view = &views.targets[k];
-            const auto& rows = views.rows[k];
-            sum = kernels.addParallelView(sum, position, normal,
-                                          {constant(views.towards[k]), constant4(rows[0]), constant4(rows[1]),
-                                           constant4(rows[2]), kSize, T(0.01)});
-            if (k % 4 == 0)
-                ofFaces = kernels.addHemicubeFace(
-                    ofFaces, {constant(views.towards[k]), constant({0.1, 0, 0}), constant({0, 0.1, 0}),
-                              T(kSize / 2), T(kSize / 2), kSize, kSize, k % 8 == 0 ? 1 : 0});
-        }
+        // In two ranges, from a part of the views that is kept.
+        kernels.views = parallel;
+        typename K::OcclusionSum sum =
+            kernels.addParallelViews(kernels.noDirections(T(0.0)), position, normal, 0, 5);
+        K kept;
+        kept.views = std::span<const typename K::View>(parallel).subspan(3);
+        kept.firstView = 3;
+        sum = kept.addParallelViews(sum, position, normal, 5, kViews);
+        kernels.views = faces;
+        typename K::OcclusionSum ofFaces = kernels.addHemicubeFaces(kernels.noDirections(T(1.0)), 0, 1);
+        ofFaces = kernels.addHemicubeFaces(ofFaces, 1, static_cast<int>(faces.size()));
         size_t number = 0;
         for (const auto& part : {kernels.openPart(sum, normal), kernels.openPart(ofFaces, normal)})
             for (const T& value : {part.open, part.bentNormal.x, part.bentNormal.y, part.bentNormal.z}) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <string_view>
 
 #include "lighting/render_view.h"
 #include "shadows/planar_lights.h"
@@ -117,6 +118,32 @@ TEST_CASE("PointsElsewhereAreLit") {
     // A position that is not a number has a texel.
     const double bad = lookUp(visibility, pointsOn({{std::numeric_limits<double>::quiet_NaN(), 0, 0}}, 3))[0];
     CHECK((bad == 0 || bad == 1));
+}
+
+TEST_CASE("TwoShadowsOfALightOnAReceiverAreMultiplied") {
+    const PlanarShadow soft = boxShadow("f32", 0.1), hard = boxShadow("f32", 0.02);
+    std::vector<glm::dvec3> positions;
+    for (int i = 0; i < 400; i++) positions.emplace_back(-1 + 0.1 * (i % 20), 0, -1 + 0.1 * (i / 20));
+    const LitPoints points = pointsOn(positions, 0);
+    for (const char* name : {"f32", "f64", "nv40-fp16"}) {
+        const Profile& profile = *findProfile(name);
+        std::vector<PlanarVisibility::Entry> both = entryOf(soft);
+        both.push_back({0, 0, hard});
+        const auto product = lookUp(PlanarVisibility(both, profile), points);
+        const auto first = lookUp(PlanarVisibility(entryOf(soft), profile), points);
+        const auto second = lookUp(PlanarVisibility(entryOf(hard), profile), points);
+        size_t wrong = 0, partly = 0;
+        for (size_t i = 0; i < points.size(); i++) {
+            // The product of two numbers of the arithmetic, rounded to it.
+            const double exact = first[i] * second[i];
+            const double rounded = std::string_view(name) == "f32" ? static_cast<float>(exact) : exact;
+            wrong += std::string_view(name) == "nv40-fp16" ? std::abs(product[i] - exact) > 0x1p-11
+                                                           : product[i] != rounded;
+            partly += product[i] > 0 && product[i] < 1;
+        }
+        CHECK(wrong == 0);
+        CHECK(partly > 20);
+    }
 }
 
 TEST_CASE("EachLightLosesItsOwnShareOnly") {

@@ -2,7 +2,12 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
+#include <limits>
+
+#include "numeric/random.h"
 #include "shadows/ambient_occlusion.h"
+#include "shadows/flat_mesh.h"
 #include "tests/support/box_scene.h"
 
 using namespace etalon;
@@ -107,4 +112,64 @@ TEST_CASE("OnlyFlatThingsWithNothingInFrontOfThemAreAllOpen") {
     for (const PlacedMesh& mesh : both.placed)
         for (const Occlusion& of : directionalOcclusion(both.placed, occlusionPointsOf(mesh), options))
             CHECK(of.open == 1);
+}
+
+TEST_CASE("AMeshIsFlatToTheErrorOfItsVertices") {
+    const auto planeWith = [](float lifted_m, float away_m = 0) {
+        SurfaceMesh mesh = kFloor;
+        for (auto& p : mesh.positions) p.x += away_m;
+        mesh.positions[3].y = lifted_m;
+        return planeOf(Placed({mesh}).placed[0]);
+    };
+    const MeshPlane plane = planeWith(0);
+    CHECK(plane.exists);
+    CHECK(std::abs(plane.normal.y) == 1);
+    CHECK(plane.tolerance_m == 2 * kFlatness);
+    CHECK(planeWith(0x1p-20f).exists);
+    CHECK_FALSE(planeWith(0x1p-16f).exists);
+    CHECK(planeWith(0x1p-16f, 1000).exists);
+    CHECK_FALSE(planeWith(std::numeric_limits<float>::infinity()).exists);
+    SurfaceMesh line = kFloor;
+    for (auto& p : line.positions) p.z = 0;
+    CHECK_FALSE(planeOf(Placed({line}).placed[0]).exists);
+}
+
+// Plates whose corners and normals are moved about what is allowed.
+TEST_CASE("WhatIsAllOpenIsFoundOpenInEveryDirection") {
+    DirectionalOptions options;
+    options.directions = 48;
+    options.mapSize = 16;
+    options.raster.threads = 1;
+    Random random(11);
+    int open = 0, closed = 0, covered = 0;
+    for (int scene = 0; scene < 200; scene++) {
+        const double reach_m = std::ldexp(1, random.integer(-24, -1));
+        const auto moved = [&](SurfaceMesh mesh) {
+            for (auto& p : mesh.positions)
+                for (int c = 0; c < 3; c++) p[c] += static_cast<float>(random.uniform(-reach_m, reach_m));
+            for (auto& n : mesh.normals)
+                for (int c = 0; c < 3; c++) n[c] += static_cast<float>(random.uniform(-reach_m, reach_m));
+            return mesh;
+        };
+        const float height_m = static_cast<float>(random.uniform(-1, 1) * reach_m);
+        const bool isBoth = random.chance(0.5);
+        const Placed plates({moved(kFloor), moved(rectangle({3, height_m, 0}, {0.5, 0, 0}, {0, 0, -0.5}))},
+                            isBoth);
+        size_t notOpen = 0;
+        for (const PlacedMesh& mesh : plates.placed) {
+            std::vector<OcclusionPoint> points = occlusionPointsOf(mesh);
+            if (isBoth)
+                for (size_t i = points.size(); i-- > 0;)
+                    points.push_back({points[i].position_m, -points[i].normal});
+            for (const Occlusion& of : directionalOcclusion(plates.placed, points, options))
+                notOpen += of.open != 1;
+        }
+        const bool isOpen = plates.isOpen(options.mapSize);
+        if (isOpen) CHECK(notOpen == 0);
+        (isOpen ? open : closed)++;
+        covered += notOpen > 0;
+    }
+    CHECK(open > 30);
+    CHECK(closed > 30);
+    CHECK(covered > 10);
 }

@@ -17,6 +17,12 @@ using namespace etalon::test;
 
 namespace {
 
+template <class T>
+struct TurnKernel {
+#include "numeric/kernel_scope.inc"
+#include "shadows/kernels/pattern_turn.glsl"
+};
+
 // A grid of small squares over a ground: shadows in every direction.
 SurfaceScene confetti() {
     SurfaceScene scene;
@@ -213,6 +219,30 @@ TEST_CASE("QuantisedReferencesCompareAsStoredIntegers") {
         }
     }
     CHECK(lit[1] > lit[0] + 20);
+}
+
+TEST_CASE("TurnsAreThoseOfAHashOf64Bits") {
+    Random random(5);
+    std::set<int> seen;
+    size_t wrong = 0;
+    for (int i = 0; i < 20000; i++) {
+        const uint64_t seed = random.next();
+        const PatternTurns turns(seed);
+        const auto end = [&](uint64_t v) {
+            return i % 7 == 0 ? 0xffffffffu : i % 5 == 0 ? 0u : static_cast<uint32_t>(v);
+        };
+        const uint32_t x = end(random.next()), y = end(random.next() >> (i % 3 == 0 ? 52 : 32));
+        uint64_t h = Random(seed).next() ^ (uint64_t{x} | uint64_t{y} << 32);
+        h = (h ^ (h >> 30)) * 0xbf58476d1ce4e5b9u;
+        h = (h ^ (h >> 27)) * 0x94d049bb133111ebu;
+        const int expected = static_cast<int>((h >> 33) % kPatternTurns);
+        const int turn =
+            TurnKernel<float>().turnOfPixel({turns.keyHigh(), turns.keyLow()}, x, y, kPatternTurns);
+        wrong += turn != expected;
+        seen.insert(turn);
+    }
+    CHECK(wrong == 0);
+    CHECK(seen.size() == kPatternTurns);
 }
 
 TEST_CASE("PatternsAreTheSameForTheSameSeed") {
