@@ -24,7 +24,7 @@ namespace {
 struct BitsOptions {
     std::string pattern = "*", reference = "golden/bits.txt", against, dump, reason;
     WaySelection ways;
-    bool accept = false, json = false, all = false;
+    bool accept = false, json = false;
 };
 
 std::string readFile(const std::string& file) {
@@ -218,18 +218,15 @@ void addBits(Verb& command, const std::vector<BitCase>& cases) {
     const auto options = std::make_shared<BitsOptions>();
     Verb& verb = command.addVerb(
         "bits",
-        "Compute every pass at every level of this machine, with one thread and with several, and compare "
-        "each "
-        "bit with the reference; names the first pass, tile and pixel that differ. Exit 1 if one does.");
+        "Compute every pass in every way of this machine (levels, threads, tiles) and compare each bit with "
+        "the reference; names the first pass, tile and pixel that differ. Exit 1 if one does.");
     const Option pattern = verb.add("--case", options->pattern, "Names of cases: * ? [...]");
     verb.add("--reference", options->reference, "Reference hashes");
     const Option level = addIsaOption(verb);
     addThreadsOption(verb, options->ways.threads);
     addTileOption(verb, options->ways.tileSize);
-    verb.addFlag(
-        "--all", options->all,
-        "Every combination of level, 1, 2 and 7 threads, and tiles of 16, 32 and 64 pixels; default: each "
-        "level with 1 thread and tiles of 64, and with 7 threads and tiles of 24");
+    verb.addFlag("--all", options->ways.everyCombination,
+                 "Every combination of level, threads and tile size");
     verb.addFlag("--json", options->json, "Report as JSON");
     const Option dump = verb.add("--dump", options->dump, "Write the words of this machine to a file");
     const Option against = verb.add("--against", options->against,
@@ -242,9 +239,6 @@ void addBits(Verb& command, const std::vector<BitCase>& cases) {
     dump.excludes(against);
     verb.onRun([options, level, &cases] {
         if (level.isGiven()) options->ways.level = activeIsa();
-        options->ways.extent = options->all      ? WayExtent::every
-                               : options->accept ? WayExtent::listed
-                                                 : WayExtent::few;
         return runBits(*options, cases);
     });
 }

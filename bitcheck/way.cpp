@@ -1,7 +1,6 @@
 #include "bitcheck/way.h"
 
 #include <algorithm>
-#include <span>
 
 #include "numeric/text.h"
 
@@ -11,9 +10,6 @@ namespace {
 // One thread, few, and an odd number of more threads than a small machine has.
 constexpr int kThreadCounts[] = {1, 2, 7};
 constexpr int kTileSizes[] = {64, 32, 16};
-// Of few ways: tiles that are no power of two with many threads.
-constexpr int kFewThreadCounts[] = {1, 7};
-constexpr int kFewTileSizes[] = {64, 24};
 
 // Selects a level and puts the old one back.
 class LevelScope {
@@ -28,11 +24,11 @@ class LevelScope {
 };
 
 // The one asked for, or the first of the list where the case is not cut by it, or the whole list.
-template <class T>
-std::vector<T> choices(const std::optional<T>& only, bool isVaried, std::span<const T> all) {
+template <class T, class List>
+std::vector<T> choices(const std::optional<T>& only, bool isVaried, const List& all) {
     if (only) return {*only};
-    if (!isVaried) return {all.front()};
-    return {all.begin(), all.end()};
+    if (!isVaried) return {*std::begin(all)};
+    return {std::begin(all), std::end(all)};
 }
 
 }  // namespace
@@ -46,16 +42,12 @@ std::string wayText(const BitWay& way, const BitCase& c) {
 
 std::vector<BitWay> waysOf(const WaySelection& selection, const BitCase& c) {
     std::vector<IsaLevel> widestFirst(usableIsaLevels().rbegin(), usableIsaLevels().rend());
-    const bool isFew = selection.extent == WayExtent::few;
-    using List = std::span<const int>;
-    const auto levels = choices<IsaLevel>(selection.level, c.hasLevels, widestFirst);
-    const auto threadCounts =
-        choices(selection.threads, c.hasThreads, isFew ? List(kFewThreadCounts) : List(kThreadCounts));
-    const auto tileSizes =
-        choices(selection.tileSize, c.hasTiles, isFew ? List(kFewTileSizes) : List(kTileSizes));
+    const auto levels = choices(selection.level, c.hasLevels, widestFirst);
+    const auto threadCounts = choices(selection.threads, c.hasThreads, kThreadCounts);
+    const auto tileSizes = choices(selection.tileSize, c.hasTiles, kTileSizes);
     std::vector<BitWay> ways;
     for (const IsaLevel level : levels) {
-        if (selection.extent == WayExtent::every || (!isFew && level == levels.front())) {
+        if (selection.everyCombination || level == levels.front()) {
             for (const int threads : threadCounts)
                 for (const int tileSize : tileSizes) ways.push_back({level, threads, tileSize});
         } else {

@@ -19,19 +19,13 @@ struct BitWay {
 // "v3, 2 threads, tile 32", without what the case is not cut by.
 std::string wayText(const BitWay& way, const BitCase& c);
 
-// How many of the ways of each level.
-enum class WayExtent : uint8_t {
-    few,     // two: one thread with tiles of 64 pixels, 7 with tiles of 24
-    listed,  // 1, 2 and 7 threads, tiles of 64, 32 and 16: each at the narrower levels, every pair at the widest
-    every,  // every pair at every level
-};
-
 // Which ways to try.
 struct WaySelection {
     std::optional<IsaLevel> level;  // only this one; else every usable level
-    std::optional<int> threads;     // only this number; else those of the extent
-    std::optional<int> tileSize;    // only this one; else those of the extent
-    WayExtent extent = WayExtent::listed;
+    std::optional<int> threads;     // else 1, 2 and 7
+    std::optional<int> tileSize;    // else 16, 32 and 64
+    bool everyCombination =
+        false;  // false: the narrower levels with each number of threads and tile size once
 };
 
 // The ways of a case, at least one; the first is the widest level with one thread and the largest tile. What
