@@ -18,6 +18,16 @@ Truth apply(Binary function, const Truth& a, const Truth& b) {
     return r;
 }
 
+// MPFR keeps constants and memory for the next call of its elementary functions, for each thread: freed when that ends.
+struct KeptByMpfr {
+    ~KeptByMpfr() { mpfr_free_cache2(MPFR_FREE_LOCAL_CACHE); }
+};
+template <class F, class... Arguments>
+Truth elementary(F f, const Arguments&... arguments) {
+    static thread_local const KeptByMpfr kept;
+    return apply(f, arguments...);
+}
+
 }  // namespace
 
 Truth::Truth(double value) { mpfr_set_d(get(), value, MPFR_RNDN); }
@@ -63,16 +73,16 @@ int32_t toInteger(const Truth& a) { return static_cast<int32_t>(mpfr_get_si(a.ge
 
 Truth ElementaryFunctions<Truth>::atan2Of(const Truth& y, const Truth& x) {
     // A sum with +0 turns -0 into +0.
-    return apply(mpfr_atan2, y + Truth(0.0), x + Truth(0.0));
+    return elementary(mpfr_atan2, y + Truth(0.0), x + Truth(0.0));
 }
 Truth ElementaryFunctions<Truth>::powOf(const Truth& x, const Truth& y) {
     const Truth base = x + Truth(0.0);
-    if (!(base < Truth(0.0) || base != base || y != y)) return apply(mpfr_pow, base, y);
+    if (!(base < Truth(0.0) || base != base || y != y)) return elementary(mpfr_pow, base, y);
     Truth r;
     mpfr_set_nan(r.get());
     return r;
 }
-Truth ElementaryFunctions<Truth>::sinOf(const Truth& x) { return apply(mpfr_sin, x); }
-Truth ElementaryFunctions<Truth>::cosOf(const Truth& x) { return apply(mpfr_cos, x); }
+Truth ElementaryFunctions<Truth>::sinOf(const Truth& x) { return elementary(mpfr_sin, x); }
+Truth ElementaryFunctions<Truth>::cosOf(const Truth& x) { return elementary(mpfr_cos, x); }
 
 }  // namespace etalon
