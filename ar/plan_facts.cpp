@@ -49,8 +49,9 @@ uint64_t shadowMemory(const LightShadow& shadow, bool isDirectional, size_t rece
     const int border = 2 * filterReach_texels(shadow.map) + 2;
     const uint64_t drawn = shadowMapTexels(shadow.map, isDirectional),
                    faces = isDirectional ? 1 : kFacesPerCube;
-    const int width = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(drawn / faces)))) +
-                      2 * border + kMostLanes + 1;
+    const uint64_t texelsOfFace = drawn / faces;
+    const int width = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(texelsOfFace)))) + 2 * border +
+                      kMostLanes + 1;
     return drawn * (kBytesPerSample + sizeof(uint32_t)) +
            faces * (squared(width) + 2 * squared(width / 8 + 1)) * sizeof(double);
 }
