@@ -77,6 +77,17 @@ bool isAll(const Frame& frame, const std::string& channel, float value) {
 
 constexpr ShadowMethod kMethods[] = {ShadowMethod::map, ShadowMethod::volume, ShadowMethod::planar};
 
+// 16 lights of a white environment, all of which cast shadows, instead of the scene's.
+void lightByEnvironment(Scene& scene, ShadowMethod method) {
+    scene.lights.clear();
+    scene.environment.kind = EnvironmentKind::constant;
+    scene.environment.constant = glm::dvec3(1);
+    scene.environment.lighting = EnvironmentLightMethod::lights;
+    scene.environment.lightCount = 16;
+    scene.environment.shadow.method = method;
+    scene.environment.shadowLights = 16;
+}
+
 }  // namespace
 
 TEST_CASE("ZIsTheDistanceAlongTheView") {
@@ -205,13 +216,7 @@ TEST_CASE("ShadowsOfSeveralSamplesAreMeans") {
 
 TEST_CASE("LightsOfAnEnvironmentHaveShadowChannels") {
     Scene scene = blockedScene({"shadow", "irradiance"}, ShadowMethod::none);
-    scene.lights.clear();
-    scene.environment.kind = EnvironmentKind::constant;
-    scene.environment.constant = glm::dvec3(1);
-    scene.environment.lighting = EnvironmentLightMethod::lights;
-    scene.environment.lightCount = 16;
-    scene.environment.shadow.method = ShadowMethod::volume;
-    scene.environment.shadowLights = 16;
+    lightByEnvironment(scene, ShadowMethod::volume);
     const Frame frame = frameOf(scene);
     size_t channels = 0;
     for (const Channel& channel : frame.channels)
@@ -420,14 +425,8 @@ TEST_CASE("ShadowMapsAreFiles") {
 // The lights of an environment are found for their maps alone, too.
 TEST_CASE("ShadowMapsOfAnEnvironmentAreFiles") {
     Scene scene = blockedScene({"ids", "shadow_map"}, ShadowMethod::none);
-    scene.lights.clear();
-    scene.environment.kind = EnvironmentKind::constant;
-    scene.environment.constant = glm::dvec3(1);
-    scene.environment.lighting = EnvironmentLightMethod::lights;
-    scene.environment.lightCount = 16;
-    scene.environment.shadow.method = ShadowMethod::map;
+    lightByEnvironment(scene, ShadowMethod::map);
     scene.environment.shadow.map.size = 16;
-    scene.environment.shadowLights = 16;
     const RenderResult alone = renderScene(scene, {});
     CHECK_FALSE(alone.plan.find("diffuse")->runs);
     CHECK(alone.files.size() + alone.warnings.size() == 16);
