@@ -16,7 +16,7 @@ constexpr const char* kReference = "golden/bits.txt";
 
 // Every way; one for each level where that would take minutes.
 #ifdef ETALON_ONE_WAY
-constexpr WaySelection kWays{.level = {}, .threads = 2, .tileSize = 32};
+constexpr WaySelection kWays{.level = {}, .threads = 7, .tileSize = 32};
 #else
 constexpr WaySelection kWays{};
 #endif
