@@ -65,6 +65,14 @@ class CliCase(unittest.TestCase):
         self.assertEqual(process.wait(), 0)
         return text.decode()
 
+    def on_slow_terminal(self, pattern, arguments_of, sizes):
+        """on_terminal for the first of the sizes that shows the pattern: one that takes a second on this machine."""
+        for size in sizes:
+            text = self.on_terminal(*arguments_of(size))
+            if re.search(pattern, text):
+                return text
+        self.fail(f"no {pattern} in {text!r}")
+
     def lowest_level(self):
         """The first of the instruction set levels that are built."""
         return re.search(r"--isa TEXT:\{(\w+)", self.run_program("bits", "--help").stdout).group(1)

@@ -125,17 +125,19 @@ class Render(CliCase):
         self.assertEqual(max(seen), 1)
 
     def test_progress_shows_on_a_terminal_after_a_second(self):
-        def shown(width, more=""):
+        def arguments(width, more=""):
             self.scene(width=width, height=width, more="[render]\nsamples = 16\n" + more)
-            return self.on_terminal("render", "scene.toml", "-o", "a.exr", "--threads", "1")
+            return ["render", "scene.toml", "-o", "a.exr", "--threads", "1"]
 
-        self.assertEqual(shown(16), "")
-        text = shown(4000)
-        self.assertRegex(text, r"shading \(\d+ of \d+\): \d+ %, \d+ s left")
-        self.assertRegex(text, r"writing a.exr: \d+ %, \d+ s left")
+        def occluded(directions):
+            return arguments(200, f'occlusion = {directions}\n[environment]\nconstant = [1, 1, 1]\n'
+                                  'lighting = "exact"\n')
+
+        self.assertEqual(self.on_terminal(*arguments(16)), "")
+        text = self.on_slow_terminal(r"(?s)shading \(\d+ of \d+\): \d+ %, \d+ s left.*writing a.exr: \d+ %, \d+ s left",
+                                     arguments, (1000, 2000, 4000))
         self.assertTrue(text.endswith("\x1b[K"))
-        text = shown(200, 'occlusion = 3000\n[environment]\nconstant = [1, 1, 1]\nlighting = "exact"\n')
-        self.assertRegex(text, r"ambient occlusion \(\d+ of \d+\): step \d+, \d+ %, \d+ s left")
+        self.on_slow_terminal(r"ambient occlusion \(\d+ of \d+\): step \d+, \d+ %, \d+ s left", occluded, (300, 3000))
 
     def test_plan_as_text_json_and_graph(self):
         self.scene()
