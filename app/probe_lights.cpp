@@ -79,6 +79,11 @@ ExitCode runProbeLights(const ProbeLightsVerb& verb) {
         progress.finish();
         warnUncounted(verb.input.file, found.uncountedValues);
         lights = std::move(found.lights);
+        const uint64_t asked = uint64_t{1} << cut.log2Count;
+        if (lights.size() < asked)
+            printText(stderr,
+                      "etalon: warning: {}: {} of {} lights, because regions of one texel stay whole\n",
+                      verb.input.file, lights.size(), asked);
         for (const ProbeLight& light : lights) {
             list.append(jsonOf(light));
             text += textOf(light) + "\n";

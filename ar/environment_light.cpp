@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "numeric/text.h"
 #include "numeric/vectors.h"
 #include "probes/convert.h"
 #include "probes/dominant_lights.h"
@@ -66,7 +67,15 @@ EnvironmentIllumination environmentIllumination(const Environment& environment,
             MedianCut cut;
             for (cut.log2Count = 0; (1 << cut.log2Count) < environment.lightCount;) cut.log2Count++;
             lights = medianCutLights(probe, cut, arithmetic, threads).lights;
-            std::erase_if(lights, [](const ProbeLight& found) { return found.energy == glm::dvec3(0); });
+            const size_t found = lights.size();
+            std::erase_if(lights, [](const ProbeLight& one) { return one.energy == glm::dvec3(0); });
+            if (static_cast<int>(lights.size()) < environment.lightCount)
+                illumination.warnings.push_back(
+                    formatText("the environment gives {} of {} lights: {} fewer because regions of one texel "
+                               "stay whole, {} "
+                               "because regions are black",
+                               lights.size(), environment.lightCount,
+                               static_cast<size_t>(environment.lightCount) - found, found - lights.size()));
             break;
         }
         case EnvironmentLightMethod::dominant:

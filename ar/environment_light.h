@@ -1,6 +1,9 @@
 // The environment of a scene as light for its surfaces.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "lighting/surface_scene.h"
 #include "probes/probe_light.h"
 #include "raster/profile.h"
@@ -12,6 +15,7 @@ namespace etalon {
 struct EnvironmentIllumination {
     std::vector<ProbeLight> lights;  // black ones are left out
     EnvironmentLight diffuse;
+    std::vector<std::string> warnings;
 };
 
 // The light as which a light of a probe shines on surfaces.

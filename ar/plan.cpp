@@ -51,13 +51,6 @@ class Planner : public std::enable_shared_from_this<Planner> {
     using Terms = std::vector<Result<ShadeTerm>>;
     using Occlusion = std::vector<Result<SurfaceOcclusion>>;
 
-    void requireSampling(const Profile& profile, const Arithmetic& arithmetic,
-                         const EnvironmentImage& of) const {
-        const Image<float>& latLong = of.radiance.latLong;
-        etalon::requireSampling(scene_, profile, arithmetic, "an environment", scene_.environment.line,
-                                latLong.width(), latLong.height());
-    }
-
     bool asked(std::string_view output) const {
         return std::ranges::find(outputs_, output) != outputs_.end();
     }
@@ -77,16 +70,12 @@ class Planner : public std::enable_shared_from_this<Planner> {
     // decision's.
     PassText textOf(std::string name, std::string why, std::string nothing, std::string unneeded = "",
                     PassNumbers numbers = PassNumbers::none, uint64_t memory_bytes = 0) {
-        const bool assumes = showing_.takeAssumption();
-        return {std::move(name),
-                std::move(why),
-                std::move(nothing),
-                std::move(unneeded),
-                assumes ? std::string(kVisibility) : "",
-                numbers,
-                memory_bytes,
-                false,
-                false};
+        PassText text;
+        text.name = std::move(name), text.why = std::move(why);
+        text.nothing = std::move(nothing), text.unneeded = std::move(unneeded);
+        if (showing_.takeAssumption()) text.dependsOn = kVisibility;
+        text.numbers = numbers, text.memory_bytes = memory_bytes;
+        return text;
     }
     template <class T, class Run, class... Needs>
     Result<T> add(PassList& list, PassText text, T neutral, Run run, const Needs&... needs) {
@@ -151,7 +140,7 @@ class Planner : public std::enable_shared_from_this<Planner> {
                     return image;
                 });
         const EnvironmentLightMethod method = scene_.environment.lighting;
-        illumination_ = add(
+        results_->illumination = add(
             list,
             textOf(
                 std::string(kEnvironmentLight),
@@ -165,32 +154,28 @@ class Planner : public std::enable_shared_from_this<Planner> {
                     ? kFacesPerCube * squared(scene_.environment.mapSize) * 3 * kBytesPerFloat
                     : 0),
             EnvironmentIllumination{},
-            [this, method](const PassContext& context, const EnvironmentImage& image) {
-                if (method == EnvironmentLightMethod::map || method == EnvironmentLightMethod::blurred)
-                    etalon::requireSampling(scene_, context.profile, context.profile.fragment,
-                                            "a map of irradiance", scene_.environment.line,
-                                            scene_.environment.mapSize, scene_.environment.mapSize);
-                if (method == EnvironmentLightMethod::blurred)
-                    requireSampling(context.profile, context.profile.environment, image);
-                return environmentIllumination(scene_.environment, image.radiance, context.profile,
-                                               settings_.raster.threads);
+            [this](const PassContext& context, const EnvironmentImage& image) {
+                return lightOfEnvironment(settings_, context, image);
             },
             image());
         if (!environmentCasts()) return;
         list.whenDone<EnvironmentIllumination>(
-            *illumination_,
+            illumination(),
             [self = shared_from_this()](PassList& done, const EnvironmentIllumination& found) {
                 self->facts_.casters = castersOf(self->scene_.environment, found.lights);
-                done.truncate(self->illumination_->pass() + 1);
+                done.passes[self->illumination().pass()].reason +=
+                    castersText(*self->facts_.casters, found.lights.size());
+                done.truncate(self->illumination().pass() + 1);
                 self->addRest(done);
                 done.decide(self->everything_);
             });
     }
     const Result<EnvironmentImage>& image() const { return *results_->environmentImage; }
+    const Result<EnvironmentIllumination>& illumination() const { return *results_->illumination; }
     // For passes that the environment's light is a part of.
     using Illumination = std::vector<Result<EnvironmentIllumination>>;
     Illumination illuminationIf(bool condition) const {
-        return condition ? Illumination{*illumination_} : Illumination{};
+        return condition ? Illumination{illumination()} : Illumination{};
     }
     static const EnvironmentIllumination& only(const std::vector<const EnvironmentIllumination*>& of) {
         static const EnvironmentIllumination none;
@@ -351,7 +336,7 @@ class Planner : public std::enable_shared_from_this<Planner> {
             std::optional<CubeMap<float>>{},
             [this](const PassContext& context, const EnvironmentImage& of) -> std::optional<CubeMap<float>> {
                 if (of.radiance.latLong.empty()) return std::nullopt;
-                requireSampling(context.profile, context.profile.fragment, of);
+                requireSampling(scene_, context.profile, context.profile.fragment, of);
                 return environmentCube(of.radiance, context.profile, settings_.raster.threads);
             },
             image());
@@ -361,44 +346,60 @@ class Planner : public std::enable_shared_from_this<Planner> {
         return condition || everything_ ? EnvironmentCube{*environmentCube_} : EnvironmentCube{};
     }
 
-    // A cube map of the scene for each mirror that asks for one. Mirrors in it show the environment.
+    // A cube map of the scene for each mirror that asks for one. Mirrors in it show what they showed in the cube maps of
+    // one reflection less, those of the first reflection the environment.
     void addCubes(PassList& list) {
-        cubes_.clear(), cubeFiles_.clear();
-        for (uint32_t i = 0; i < showing_.objects().size(); i++) {
-            if (!showing_.hasCube(i)) continue;
-            const uint64_t texels =
-                kFacesPerCube * squared(scene_.meshes[showing_.objects()[i].index].cubeSize);
-            const bool hasOcclusion =
-                everything_ ? scene_.render.occlusionDirections > 0 : showing_.cubesHaveOcclusion();
-            showing_.takeAssumption();
-            const std::string nothing = showing_.whyNoCube(i);
-            const Result<CubeRender> cube = add(
-                list,
-                textOf("cube map of " + showing_.objects()[i].name, "a visible mirror reflects the scene",
-                       nothing, "", PassNumbers::fragment, texels * 4 * kBytesPerFloat),
-                CubeRender{},
-                [this, i, hasOcclusion](const PassContext& context, const Geometry& of,
-                                        const SceneLights& lights, const EnvironmentImage& radiance,
-                                        const std::vector<const EnvironmentIllumination*>& environment,
-                                        const std::vector<const std::optional<CubeMap<float>>*>& sky,
-                                        const std::vector<const CastShadow*>& shadows) {
-                    static const std::optional<CubeMap<float>> none;
-                    const int size = scene_.meshes[showing_.objects()[i].index].cubeSize;
-                    etalon::requireSampling(scene_, context.profile, context.profile.fragment, "a cube map",
-                                            0, size, size);
-                    return renderObjectCube(settings_, context, i, hasOcclusion, of, lights, radiance,
-                                            only(environment), sky.empty() ? none : *sky.front(), shadows);
-                },
-                geometry(), *lights_, image(), illuminationIf(showing_.environmentLights()),
-                environmentCubeIf(showing_.cubeSeesMirror(i)), shadows_);
-            list.passes.back().text.isLookedUp = true;
-            if (nothing.empty() || everything_) cubes_.emplace_back(i, cube);
-            if (nothing.empty())
-                cubeFiles_.emplace_back(i, cube);
-            else if (asked("cube_map"))
-                notMade_.push_back(
-                    formatText("cube map of {} is not made: {}", showing_.objects()[i].name, nothing));
+        cubeFiles_.clear();
+        const int reflections = scene_.render.reflections;
+        for (int reflection = 1; reflection <= reflections; reflection++) {
+            const auto before = reflection == 1 ? std::vector<ObjectCube>{} : std::move(cubes_);
+            cubes_.clear();
+            for (uint32_t i = 0; i < showing_.objects().size(); i++)
+                if (showing_.hasCube(i)) addCube(list, i, reflection, before);
         }
+    }
+    using ObjectCube = std::pair<uint32_t, Result<CubeRender>>;
+    void addCube(PassList& list, uint32_t i, int reflection, const std::vector<ObjectCube>& before) {
+        const bool isLast = reflection == scene_.render.reflections;
+        const int size = scene_.meshes[showing_.objects()[i].index].cubeSize;
+        const bool hasOcclusion =
+            everything_ ? scene_.render.occlusionDirections > 0 : showing_.cubesHaveOcclusion();
+        showing_.takeAssumption();
+        const std::string nothing = isLast ? showing_.whyNoCube(i) : showing_.whyNoCubeForCubes(i);
+        std::string name = "cube map of " + showing_.objects()[i].name;
+        if (!isLast) name += formatText(", reflection {} of {}", reflection, scene_.render.reflections);
+        std::vector<uint32_t> mirrors;
+        std::vector<Result<CubeRender>> reflected;
+        for (const auto& [object, cube] : before)
+            if (object != i) mirrors.push_back(object), reflected.push_back(cube);
+        const Result<CubeRender> cube = add(
+            list,
+            textOf(name,
+                   isLast ? "a visible mirror reflects the scene" : "mirrors in cube maps reflect the scene",
+                   nothing, isLast ? "" : "no cube map of the next reflection is made", PassNumbers::fragment,
+                   kFacesPerCube * squared(size) * 4 * kBytesPerFloat),
+            CubeRender{},
+            [=, this](const PassContext& context, const Geometry& of, const auto& lights,
+                      const auto& radiance, const auto& environment, const auto& sky, const auto& shadows,
+                      const auto& seen) {
+                static const std::optional<CubeMap<float>> none;
+                requireSampling(scene_, context.profile, context.profile.fragment, "a cube map", 0, size,
+                                size);
+                ObjectCubes cubes;
+                for (size_t k = 0; k < seen.size(); k++) cubes.emplace_back(mirrors[k], &seen[k]->radiance);
+                return renderObjectCube(settings_, context, i, hasOcclusion, of, lights, radiance,
+                                        only(environment), sky.empty() ? none : *sky.front(), shadows, cubes);
+            },
+            geometry(), *lights_, image(), illuminationIf(showing_.environmentLights()),
+            environmentCubeIf(showing_.cubeSeesMirror(i)), shadows_, reflected);
+        list.passes.back().text.isLookedUp = true;
+        if (nothing.empty() || everything_) cubes_.emplace_back(i, cube);
+        if (!isLast) return;
+        if (nothing.empty())
+            cubeFiles_.emplace_back(i, cube);
+        else if (asked("cube_map"))
+            notMade_.push_back(
+                formatText("cube map of {} is not made: {}", showing_.objects()[i].name, nothing));
     }
 
     // Of what the ambient light and the environment's diffuse light reach, where the scene asks for it.
@@ -589,7 +590,7 @@ class Planner : public std::enable_shared_from_this<Planner> {
         addTerm(
             list, ShadeOutput::background, "background", showing_.whyBlack(ShadeOutput::background),
             [this, profile = profile_](ShadeJob& job, const EnvironmentImage& of) {
-                requireSampling(*profile, profile->fragment, of);
+                requireSampling(scene_, *profile, profile->fragment, of);
                 job.environment = &of.radiance;
             },
             image());
@@ -764,12 +765,11 @@ class Planner : public std::enable_shared_from_this<Planner> {
 
     // What passes are added with, as far as they are: of the plan as it is now.
     std::shared_ptr<PlanResults> results_ = std::make_shared<PlanResults>();
-    std::optional<Result<EnvironmentIllumination>> illumination_;
     std::optional<Result<SceneLights>> lights_;
     std::vector<Result<CastShadow>> shadows_;
     std::vector<LightId> casting_;  // the lights that are known to have shadows
     std::optional<Result<std::optional<CubeMap<float>>>> environmentCube_;
-    std::vector<std::pair<uint32_t, Result<CubeRender>>> cubes_, cubeFiles_;
+    std::vector<ObjectCube> cubes_, cubeFiles_;
     std::vector<std::pair<LightId, Result<CastShadow>>> mapFiles_;
     std::vector<std::string> notMade_;            // files that are asked for
     Occlusion occlusion_, occlusionOfFragments_;  // where surfaces are lit; of fragments in any case

@@ -57,6 +57,7 @@ struct PlanResults {
     std::optional<Result<Geometry>> geometry;
     std::optional<Result<VisibleView>> visibility;
     std::optional<Result<EnvironmentImage>> environmentImage;
+    std::optional<Result<EnvironmentIllumination>> illumination;  // where the environment lights surfaces
     std::optional<Result<Shading>> shading;
     std::optional<Result<Frame>> frame;
     std::optional<Result<std::vector<OutputFile>>> cubeFiles, mapFiles;

@@ -65,7 +65,7 @@ uint64_t volumeMemory(const Scene& scene, uint64_t samples) {
         volumes += static_cast<uint64_t>(
             std::min(environment.shadowShare > 0 ? kMaxShadowLights : environment.shadowLights,
                      std::max(environment.lightCount, DominantLightSearch{}.maxLights)));
-    return volumes > 0 ? samples * (kBytesPerSample + sizeof(uint32_t) + volumes) : 0;
+    return volumes > 0 ? samples * (kBytesPerSample + kBytesOfWideStencil + sizeof(uint32_t) + volumes) : 0;
 }
 
 void requireSampling(const Scene& scene, const Profile& profile, const Arithmetic& arithmetic,
@@ -76,6 +76,13 @@ void requireSampling(const Scene& scene, const Profile& profile, const Arithmeti
             throw InputError(formatText(
                 "{}: {} of {}x{} texels cannot be sampled in the profile {}: its format holds no {}",
                 where(scene, line), what, width, height, profile.name, size));
+}
+
+std::string castersText(const std::vector<EnvironmentCaster>& casters, size_t lights) {
+    double share = 0;
+    for (const EnvironmentCaster& caster : casters) share += caster.share;
+    return formatText("; {} of its {} lights may cast shadows, with {:.3g} % of the energy", casters.size(),
+                      lights, 100 * share);
 }
 
 std::vector<EnvironmentCaster> castersOf(const Environment& environment,

@@ -37,6 +37,7 @@ VisibilityFacts visibilityFacts(const VisibleScene& visible, size_t objects);
 // Sizes, for what passes say of their memory.
 inline constexpr int kFacesPerCube = 6;
 inline constexpr uint64_t kBytesPerSample = 4 + 4 + 1;  // depth, id, stencil
+inline constexpr uint64_t kBytesOfWideStencil = 4;      // per sample, where volumes have many triangles
 inline uint64_t squared(int size) { return static_cast<uint64_t>(size) * static_cast<uint64_t>(size); }
 // Of the images that a light's shadows are looked up in, and of what they are drawn into, in bytes, at most. receivers:
 // the objects that planar shadows may fall on.
@@ -51,6 +52,8 @@ uint64_t shadowMapTexels(const ShadowMapSettings& map, bool isDirectional);
 void requireSampling(const Scene& scene, const Profile& profile, const Arithmetic& arithmetic,
                      const char* what, int line, int width, int height);
 
+// What a plan says of them: how many of the environment's lights they are, with what part of its energy.
+std::string castersText(const std::vector<EnvironmentCaster>& casters, size_t lights);
 // Which of the environment's lights cast shadows.
 std::vector<EnvironmentCaster> castersOf(const Environment& environment,
                                          const std::vector<ProbeLight>& lights);

@@ -59,6 +59,9 @@ RenderResult renderScene(const Scene& scene, const RenderOptions& options) {
     const PlanResults& of = *plan.results;
     append(result.warnings, plan.value(*of.geometry).warnings);
     append(result.warnings, plan.value(*of.environmentImage).warnings);
+    if (of.illumination)
+        for (const std::string& warning : plan.value(*of.illumination).warnings)
+            result.warnings.push_back(formatText("{}: {}", where(scene, scene.environment.line), warning));
     append(result.warnings, of.notMade);
     result.frame = plan.value(*of.frame);
     append(result.files, plan.value(*of.cubeFiles));

@@ -1,11 +1,15 @@
 #include "ar/scene_passes.h"
 
 #include <algorithm>
+#include <cmath>
 
+#include "ar/plan_facts.h"
 #include "ar/surface_builder.h"
 #include "files/probe_file.h"
+#include "lighting/cube_faces.h"
 #include "lighting/tone_map.h"
 #include "numeric/text.h"
+#include "numeric/vectors.h"
 #include "raster/depth.h"
 #include "raster/rules.h"
 #include "scene/outputs.h"
@@ -59,13 +63,13 @@ void addMetadata(Frame& frame, const SceneSettings& settings, const PassContext&
 }
 
 // How points of the world fall on a shadow map.
-std::string projectionText(const ShadowProjection& p) {
+std::string projectionText(const ShadowProjection& p, const glm::dvec3& origin_m) {
     const auto of = [](const glm::dvec3& v) { return formatText("{} {} {}", v.x, v.y, v.z); };
     std::string text = formatText("{}; origin {}",
                                   p.isCube          ? "cube"
                                   : p.isPerspective ? "perspective"
                                                     : "parallel",
-                                  of(p.origin));
+                                  of(origin_m + p.origin));
     if (!p.isCube)
         text += formatText("; right {}; down {}; forward {}", of(p.right), of(p.down), of(p.forward));
     return text + formatText("; centre {} {}; scale {}; depth {} {}; near {}; far {}; border {}", p.centreU,
@@ -91,7 +95,7 @@ OutputFile cubeMapFile(const SceneSettings& settings, const PassContext& context
     probe.shape = {Mapping::cube, size, size};
     probe.radiance.assign(cube.radiance.faces.begin(), cube.radiance.faces.end());
     probe.distance_m.assign(cube.distance.faces.begin(), cube.distance.faces.end());
-    probe.position_m = geometry.surfaces.instances[instance].cubeCentre_m;
+    probe.position_m = settings.scene->origin_m + geometry.surfaces.instances[instance].cubeCentre_m;
     OutputFile file{formatText("cube_map.{}", instance + 1), frameOfProbe(probe)};
     addMetadata(file.frame, settings, context);
     file.frame.metadata["etalon.object"] = sceneObjects(*settings.scene)[instance].name;
@@ -118,7 +122,7 @@ OutputFile shadowMapFile(const SceneSettings& settings, const PassContext& conte
     file.frame.channels.push_back({map.holdsDistance() ? "distance" : "depth", std::move(plane)});
     addMetadata(file.frame, settings, context);
     file.frame.metadata["etalon.light"] = nameOf(light);
-    file.frame.metadata["etalon.projection"] = projectionText(map.projection);
+    file.frame.metadata["etalon.projection"] = projectionText(map.projection, settings.scene->origin_m);
     return file;
 }
 
@@ -154,11 +158,63 @@ size_t SceneLights::numberOf(const LightId& light) const {
     return (light.of == LightId::Of::scene ? ofScene_ : ofEnvironment_).at(light.index);
 }
 
+namespace {
+
+// Names the objects whose placed positions are far apart for their size.
+void warnOfCoarsePositions(const Scene& scene, Geometry& geometry) {
+    constexpr double kFineEnough = 256, kSmallPart = 4;  // steps along an object, and in a pixel
+    const std::vector<SceneObject> objects = sceneObjects(scene);
+    for (size_t i = 0; i < geometry.placed.size(); i++) {
+        const PlacedMesh& mesh = geometry.placed[i];
+        if (mesh.arithmetic != RasterReal::fp32 || scene.render.origin == Origin::eye) continue;
+        glm::dvec3 low(HUGE_VAL), high(-HUGE_VAL);
+        for (const glm::dvec3& p : mesh.positions)
+            for (int c = 0; c < 3; c++) low[c] = std::min(low[c], p[c]), high[c] = std::max(high[c], p[c]);
+        double size_m = 0, largest_m = 0;
+        for (int c = 0; c < 3; c++) {
+            size_m = std::max(size_m, high[c] - low[c]);
+            largest_m = std::max({largest_m, std::fabs(low[c]), std::fabs(high[c])});
+        }
+        if (!std::isfinite(largest_m) || !(largest_m > 0)) continue;
+        const double step_m = std::ldexp(1.0, std::ilogb(largest_m) + 1 - kFp32.significandBits);
+        const glm::dvec3 centre = scaledBy(low + high, 0.5), eye(scene.camera.cameraToWorld[3]);
+        const double pixel_m = lengthOf(centre - eye) / scene.camera.intrinsics.fx;
+        if (step_m * kFineEnough <= size_m || step_m * kSmallPart <= pixel_m) continue;
+        geometry.warnings.push_back(
+            formatText("{}: {}: positions in fp32 are {:.3g} m apart here, of an object of {:.3g} m; "
+                       "[render] origin = \"eye\" "
+                       "makes them relative to the camera, the profile f64 has finer ones",
+                       where(scene, scene.render.line), objects[i].name, step_m, size_m));
+    }
+}
+
+}  // namespace
+
 Geometry placeGeometry(const SceneSettings& settings, const PassContext& context) {
     Geometry geometry;
     geometry.surfaces = buildSurfaces(*settings.scene, geometry.warnings);
     geometry.placed = placeMeshes(geometry.surfaces, context.profile.vertex, settings.raster.threads);
+    warnOfCoarsePositions(*settings.scene, geometry);
     return geometry;
+}
+
+void requireSampling(const Scene& scene, const Profile& profile, const Arithmetic& arithmetic,
+                     const EnvironmentImage& image) {
+    const Image<float>& latLong = image.radiance.latLong;
+    requireSampling(scene, profile, arithmetic, "an environment", scene.environment.line, latLong.width(),
+                    latLong.height());
+}
+
+EnvironmentIllumination lightOfEnvironment(const SceneSettings& settings, const PassContext& context,
+                                           const EnvironmentImage& image) {
+    const Scene& scene = *settings.scene;
+    const Environment& environment = scene.environment;
+    const bool isBlurred = environment.lighting == EnvironmentLightMethod::blurred;
+    if (isBlurred || environment.lighting == EnvironmentLightMethod::map)
+        requireSampling(scene, context.profile, context.profile.fragment, "a map of irradiance",
+                        environment.line, environment.mapSize, environment.mapSize);
+    if (isBlurred) requireSampling(scene, context.profile, context.profile.environment, image);
+    return environmentIllumination(environment, image.radiance, context.profile, settings.raster.threads);
 }
 
 VisibleView findVisibleInView(const SceneSettings& settings, const PassContext& context,
@@ -289,18 +345,21 @@ CubeRender renderObjectCube(const SceneSettings& settings, const PassContext& co
                             bool hasOcclusion, const Geometry& geometry, const SceneLights& lights,
                             const EnvironmentImage& image, const EnvironmentIllumination& environment,
                             const std::optional<CubeMap<float>>& environmentCube,
-                            const std::vector<const CastShadow*>& shadows) {
+                            const std::vector<const CastShadow*>& shadows, const ObjectCubes& cubes) {
     const SurfaceInstance& object = geometry.surfaces.instances[instance];
     CubeRenderRequest request;
     request.centre = object.cubeCentre_m;
     request.size = object.cubeSize;
-    request.near_m = settings.scene->camera.near;
-    request.far_m = settings.scene->camera.far;
+    const CubeDepths depths =
+        cubeDepthsOf(geometry.placed, request.centre, instance, settings.raster.threads);
+    request.near_m = depths.near_m;
+    request.far_m = depths.far_m;
     request.excluded = instance;
     request.prepare = [&](ShadeJob& job) {
         job.sources = sourcesOf(lights, environment);
         job.environment = &image.radiance;
         job.everyPart = settings.everything;
+        for (const auto& [mirror, cube] : cubes) job.sceneCubes[mirror] = cube;
     };
     request.visibilityOf = [&](const View& face) {
         return shadowsOfView(settings, context, geometry, lights, shadows, face, 1, instance).visibility;

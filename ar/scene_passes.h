@@ -157,12 +157,23 @@ std::vector<VertexRadiance> lightVertices(const SceneSettings& settings, const P
                                           const EnvironmentIllumination& environment,
                                           const SurfaceOcclusion& occlusion);
 
-// The cube map around an instance. hasOcclusion: its faces are shaded with what they see of their surroundings.
+// As of an image (ar/plan_facts.h), of the environment's.
+void requireSampling(const Scene& scene, const Profile& profile, const Arithmetic& arithmetic,
+                     const EnvironmentImage& image);
+// environmentIllumination(), where its maps can be sampled.
+EnvironmentIllumination lightOfEnvironment(const SceneSettings& settings, const PassContext& context,
+                                           const EnvironmentImage& image);
+
+// Cube maps that mirrors show, by their instances.
+using ObjectCubes = std::vector<std::pair<uint32_t, const CubeMap<float>*>>;
+
+// The cube map around an instance. hasOcclusion: its faces are shaded with what they see of their surroundings. cubes: of
+// mirrors that it shows; others show the environment.
 CubeRender renderObjectCube(const SceneSettings& settings, const PassContext& context, uint32_t instance,
                             bool hasOcclusion, const Geometry& geometry, const SceneLights& lights,
                             const EnvironmentImage& image, const EnvironmentIllumination& environment,
                             const std::optional<CubeMap<float>>& environmentCube,
-                            const std::vector<const CastShadow*>& shadows);
+                            const std::vector<const CastShadow*>& shadows, const ObjectCubes& cubes);
 
 Shading shadeView(const SceneSettings& settings, const PassContext& context, const Geometry& geometry,
                   const VisibleView& visible, const std::vector<const ShadeTerm*>& terms);

@@ -153,6 +153,12 @@ bool Showing::cubeSeesMirror(size_t object) const {
         if (i != object && mirrors(materials_[i])) return true;
     return false;
 }
+std::string Showing::whyNoCubeForCubes(size_t object) const {
+    if (!mirrors(materials_[object])) return "it reflects nothing";
+    for (size_t i = 0; i < objects_.size(); i++)
+        if (i != object && hasCube(i)) return {};
+    return "no other mirror reflects the scene";
+}
 bool Showing::isEnvironmentMirrorVisible() const {
     for (size_t i = 0; i < objects_.size(); i++)
         if (mirrors(materials_[i]) && !hasCube(i) && isVisible(i)) return true;

@@ -42,6 +42,8 @@ class Showing {
     std::string whyBlack(ShadeOutput component) const;
     // Why the cube map of an object shows nowhere, or is black.
     std::string whyNoCube(size_t object) const;
+    // Why the cube map of an object shows in no other one.
+    std::string whyNoCubeForCubes(size_t object) const;
     // Whether another object's mirror is in the cube map of an object.
     bool cubeSeesMirror(size_t object) const;
     bool isEnvironmentMirrorVisible() const;

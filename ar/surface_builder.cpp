@@ -73,16 +73,15 @@ glm::dvec3 centreOfBounds(const SurfaceMesh& mesh, const glm::dmat4& toWorld) {
     return {(lowest.x + highest.x) / 2, (lowest.y + highest.y) / 2, (lowest.z + highest.z) / 2};
 }
 
-// Two triangles; the corners are point +- u size.x / 2 +- v size.y / 2, surface coordinates in metres from
-// point.
+// Two triangles about the plane's point; the corners are +- u size.x / 2 +- v size.y / 2, surface coordinates in metres
+// from there.
 SurfaceMesh planeMesh(const Plane& plane) {
     SurfaceMesh mesh;
     for (const auto& [a, b] :
          {std::pair(-0.5, -0.5), std::pair(0.5, -0.5), std::pair(0.5, 0.5), std::pair(-0.5, 0.5)}) {
         const double u_m = a * plane.size_m.x, v_m = b * plane.size_m.y;
-        mesh.positions.emplace_back(plane.point.x + (u_m * plane.u.x + v_m * plane.v.x),
-                                    plane.point.y + (u_m * plane.u.y + v_m * plane.v.y),
-                                    plane.point.z + (u_m * plane.u.z + v_m * plane.v.z));
+        mesh.positions.emplace_back(u_m * plane.u.x + v_m * plane.v.x, u_m * plane.u.y + v_m * plane.v.y,
+                                    u_m * plane.u.z + v_m * plane.v.z);
         mesh.normals.emplace_back(plane.normal);
         mesh.uv_m.emplace_back(u_m, v_m);
     }
@@ -106,6 +105,7 @@ SurfaceScene buildSurfaces(const Scene& scene, std::vector<std::string>& warning
             instance.mesh = static_cast<uint32_t>(surfaces.meshes.size());
             instance.material = static_cast<uint32_t>(plane.material);
             instance.twoSided = false;
+            instance.toWorld = translation(plane.point);
             surfaces.meshes.push_back(planeMesh(plane));
             surfaces.instances.push_back(instance);
             continue;

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "numeric/check.h"
 #include "numeric/parallel.h"
+#include "numeric/vectors.h"
 
 namespace etalon {
 namespace {
@@ -29,7 +31,58 @@ uint32_t outsidePlanes(const glm::dvec3& d, double error) {
     return bits;
 }
 
+// Squares of the distances from the origin to a segment and a triangle.
+double squaredDistanceTo(const glm::dvec3& a, const glm::dvec3& b) {
+    const glm::dvec3 along = b - a;
+    const double length = dotOf(along, along);
+    const double t = length > 0 ? std::clamp(-dotOf(a, along) / length, 0.0, 1.0) : 0;
+    const glm::dvec3 p = a + scaledBy(along, t);
+    return dotOf(p, p);
+}
+double squaredDistanceTo(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+    const double toEdges =
+        std::min({squaredDistanceTo(a, b), squaredDistanceTo(b, c), squaredDistanceTo(c, a)});
+    const glm::dvec3 normal = crossOf(b - a, c - a);
+    const double square = dotOf(normal, normal);
+    const auto isInside = [&](const glm::dvec3& p, const glm::dvec3& q) {
+        return dotOf(crossOf(p, q), normal) >= 0;
+    };
+    if (!(square > 0 && isInside(a, b) && isInside(b, c) && isInside(c, a))) return toEdges;
+    const double height = dotOf(normal, a);
+    return std::min(toEdges, height * height / square);
+}
+
 }  // namespace
+
+CubeDepths cubeDepthsOf(const std::vector<PlacedMesh>& placed, const glm::dvec3& centre, uint32_t excluded,
+                        int threads) {
+    constexpr double kBehind = 1 + 0x1p-10, kSqrt3 = 0x1.bb67ae8584caap+0;
+    double nearest = HUGE_VAL, farthest = 0;
+    for (uint32_t i = 0; i < placed.size(); i++) {
+        if (i == excluded) continue;
+        const PlacedMesh& mesh = placed[i];
+        const std::vector<uint32_t>& indices = mesh.mesh->indices;
+        const size_t triangles = indices.size() / 3;
+        std::vector<std::pair<double, double>> parts((triangles + kItemsPerTask - 1) / kItemsPerTask,
+                                                     {HUGE_VAL, 0.0});
+        parallelFor(parts.size(), threads, [&](size_t task) {
+            auto& [low, high] = parts[task];
+            const size_t last = std::min((task + 1) * kItemsPerTask, triangles);
+            for (size_t t = task * kItemsPerTask; t < last; t++) {
+                const auto corner = [&](size_t k) { return mesh.positions[indices[3 * t + k]] - centre; };
+                const glm::dvec3 a = corner(0), b = corner(1), c = corner(2);
+                if (!(isFinite(a) && isFinite(b) && isFinite(c))) continue;
+                low = std::min(low, squaredDistanceTo(a, b, c));
+                high = std::max({high, dotOf(a, a), dotOf(b, b), dotOf(c, c)});
+            }
+        });
+        for (const auto& [low, high] : parts)
+            nearest = std::min(nearest, low), farthest = std::max(farthest, high);
+    }
+    if (!(farthest > 0)) return {};
+    const double far_m = std::sqrt(farthest) * kBehind;
+    return {std::max(std::sqrt(nearest) / (2 * kSqrt3), far_m * kCubeNearRatio), far_m};
+}
 
 std::array<std::vector<uint32_t>, kCubeFaces> trianglesOfFaces(const PlacedMesh& mesh,
                                                                const glm::dvec3& centre, int threads) {

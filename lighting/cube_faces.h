@@ -17,4 +17,16 @@ namespace etalon {
 std::array<std::vector<uint32_t>, kCubeFaces> trianglesOfFaces(const PlacedMesh& mesh,
                                                                const glm::dvec3& centre, int threads);
 
+// The near and far planes of the faces of a cube map that shows the meshes, all but `excluded`, from `centre`.
+//   near: half of the depth that the nearest point of a triangle has at least, its distance / sqrt(3); not below
+//         kCubeNearRatio of far, so that what is still nearer, as of a mesh that the centre lies in, is cut off
+//   far: a little behind the farthest vertex
+// From positions that are finite; 1 and 2 where there are none.
+struct CubeDepths {
+    double near_m = 1, far_m = 2;
+};
+inline constexpr double kCubeNearRatio = 0x1p-16;
+CubeDepths cubeDepthsOf(const std::vector<PlacedMesh>& placed, const glm::dvec3& centre, uint32_t excluded,
+                        int threads);
+
 }  // namespace etalon

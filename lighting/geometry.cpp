@@ -47,6 +47,8 @@ std::vector<PlacedMesh> placeMeshes(const SurfaceScene& scene, RasterReal vertex
         PlacedMesh& result = placed[i];
         result.mesh = &mesh;
         result.mirrored = determinant3(instance.toWorld) < 0;
+        result.toWorld = instance.toWorld;
+        result.arithmetic = vertexReal;
         const glm::dmat4& m = instance.toWorld;
         const glm::dmat3& n = instance.normalToWorld;
         TransformRows rows, normalRows;

@@ -18,6 +18,12 @@ struct PlacedMesh {
     const SurfaceMesh* mesh = nullptr;
     std::vector<glm::dvec3> positions, normals;  // normals are not normalised
     bool mirrored = false;                       // the transform turns counter-clockwise faces clockwise
+    glm::dmat4 toWorld{1};                       // of the mesh's vertices, before the vertex arithmetic
+    RasterReal arithmetic = RasterReal::fp32;    // that the positions were computed in
+    // How far a position may be from that of exact arithmetic, for this largest coordinate.
+    double placingError_m(double largest_m) const {
+        return largest_m * (arithmetic == RasterReal::fp32 ? 0x1p-20 : 0x1p-48);
+    }
 };
 
 // Places every instance of the scene. Throws PreconditionError for an index of a mesh or vertex out of range.

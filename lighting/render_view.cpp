@@ -14,6 +14,7 @@ RenderTargetFormat formatOf(const Profile& profile, int samples) {
     format.depth = profile.depth;
     format.depthRounding = profile.depthRounding;
     format.real = profile.vertex;
+    format.biasUnit = profile.biasUnit;
     return format;
 }
 

@@ -58,7 +58,8 @@ struct CubeRenderRequest {
     std::function<TileOcclusion(const ShadeJob&)> occlusionOf;
 };
 
-// Renders the six faces around a point in one call. Mirrors seen in them reflect the environment alone.
+// Renders the six faces around a point in one call. Mirrors seen in them reflect the environment alone, but for those that
+// request.prepare gives a cube map.
 CubeRender renderCubeMap(const SurfaceScene& scene, const std::vector<PlacedMesh>& placed,
                          const CubeRenderRequest& request, const CubeMap<float>* environmentCube,
                          const Profile& profile, const RasterOptions& options);

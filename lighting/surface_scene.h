@@ -91,7 +91,10 @@ struct SurfaceInstance {
 // What diffuse surfaces receive from the environment, beside the lights: irradiance over normals in world
 // space, W/m^2.
 //   harmonics: the function, negative values count as 0
-//   texels: the sum over the texels of a probe, each of them a light (probes/irradiance.h)
+//   texels: the sum over the texels of a probe, each of them a light, of the shape that irradianceAt() has
+//           (probes/irradiance.h) in the order of texels; its relative error in an arithmetic of unit roundoff u, for n
+//           texels of non-negative flux in its range, is at most (kIrradianceRun + log2(n / kIrradianceRun) + 8) u, and
+//           flux times 2^k gives light times 2^k to the bit
 //   map: a cube map of irradiance, looked up along the normal
 struct EnvironmentLight {
     // The kernel text numbers them so (lighting/kernels/environment_light.glsl).

@@ -26,6 +26,10 @@ inline glm::dvec3 unitOf(const glm::dvec3& a) {
     return {a.x / length, a.y / length, a.z / length};
 }
 
+inline bool isFinite(const glm::dvec3& a) {
+    return __builtin_isfinite(a.x) && __builtin_isfinite(a.y) && __builtin_isfinite(a.z);
+}
+
 inline glm::dvec3 scaledBy(const glm::dvec3& a, double s) { return {a.x * s, a.y * s, a.z * s}; }
 
 }  // namespace etalon

@@ -1,8 +1,9 @@
 #include "probes/flux.h"
 
 #include <algorithm>
+#include <cmath>
 
-#include "numeric/check.h"
+#include "numeric/parallel.h"
 
 namespace etalon {
 
@@ -24,13 +25,48 @@ TexelRow readRadiance(const Probe& probe, int layer, int y) {
     return row;
 }
 
-void readWeights(const TexelGrid& grid, int layer, int y, TexelRow& row) {
+TexelWeights texelWeightsOf(const Probe& probe, const TexelGrid& grid, double largest, int threads) {
+    const auto width = static_cast<size_t>(probe.shape.width);
+    const auto rows = static_cast<size_t>(probe.shape.layers() * probe.shape.height);
+    TexelWeights weights;
+    weights.solidAngle_sr.resize(rows * width);
+    struct RowSums {
+        double largest = 0, flux = 0;
+    };
+    std::vector<RowSums> sums(rows);
+    parallelFor(rows, threads, [&](size_t r) {
+        const int layer = static_cast<int>(r) / probe.shape.height,
+                  y = static_cast<int>(r) % probe.shape.height;
+        const TexelRow row = readRadiance(probe, layer, y);
+        RowSums& sum = sums[r];
+        for (size_t x = 0; x < width; x++) {
+            const double weight = grid.solidAngle_sr(layer, static_cast<int>(x), y);
+            if (!(weight > 0)) continue;
+            weights.solidAngle_sr[r * width + x] = weight;
+            double radiance = 0;
+            for (const auto& channel : row.radiance) {
+                const double magnitude = std::abs(double{channel[x]});
+                if (magnitude > radiance) radiance = magnitude;  // NaN is not
+            }
+            radiance = std::min(radiance, largest);
+            sum.largest = std::max(sum.largest, radiance);
+            sum.flux += radiance * (weight * TexelWeights::kFluxHeadroom);
+        }
+    });
+    for (const RowSums& sum : sums) {
+        weights.largestRadiance = std::max(weights.largestRadiance, sum.largest);
+        weights.flux += sum.flux;
+    }
+    return weights;
+}
+
+void readWeights(const TexelWeights& weights, size_t first, int exponent, TexelRow& row) {
     row.weight.resize(static_cast<size_t>(row.padded));
-    for (int x = 0; x < row.width; x++) {
-        const auto i = static_cast<size_t>(x);
-        row.weight[i] = grid.solidAngle_sr(layer, x, y) * kFluxScale;
-        if (!(row.weight[i] > 0))
-            for (auto& channel : row.radiance) channel[i] = 0;
+    const double scale = std::ldexp(1.0, exponent);
+    for (size_t x = 0; x < static_cast<size_t>(row.width); x++) {
+        row.weight[x] = weights.solidAngle_sr[first + x] * scale;
+        if (!(row.weight[x] > 0))
+            for (auto& channel : row.radiance) channel[x] = 0;
     }
 }
 

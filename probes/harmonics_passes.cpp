@@ -34,15 +34,15 @@ template <class T>
 SphericalHarmonics projectHarmonicsOver(const Probe& probe, int degree, int threads) {
     SphericalHarmonics result(degree);
     checkProbe(probe);
-    const TexelGrid grid(probe.shape);
+    const ScaledTexels<T> texels(probe, threads);
     const auto terms = 3 * result.coefficients.size();
     const size_t block = paddedTerms<T>(terms);
-    const auto rows = static_cast<size_t>(probe.shape.layers() * probe.shape.height);
+    const size_t rows = texels.rowCount();
     std::vector<typename Number<T>::Kept> rowSums(rows * block, typename Number<T>::Kept(0.0));
     parallelFor(rows, threads, [&](size_t r) {
-        const int layer = static_cast<int>(r) / probe.shape.height;
-        const TexelRow row = readTexels(probe, grid, layer, static_cast<int>(r) % probe.shape.height);
+        const TexelRow row = readTexels(texels, r);
         HarmonicsKernel<T> kernel;
+        kernel.scaleOfRadiance = T(std::ldexp(1.0, texels.scale.radiance));
         std::vector<typename Number<T>::Kept> sums(kTexelGroup * block, typename Number<T>::Kept(0.0));
         addRowHarmonics<T>(kernel, row, degree, block, sums);
         foldTerms<T>(sums.data(), block, kTexelGroup);
@@ -51,7 +51,8 @@ SphericalHarmonics projectHarmonicsOver(const Probe& probe, int degree, int thre
     });
     addInPairs<T>(rowSums, block);
     for (size_t i = 0; i < terms; i++)
-        result.coefficients[i / 3][static_cast<glm::length_t>(i % 3)] = termAsDouble(rowSums[i]) / kFluxScale;
+        result.coefficients[i / 3][static_cast<glm::length_t>(i % 3)] =
+            texels.scale.takenOut(termAsDouble(rowSums[i]));
     return result;
 }
 

@@ -13,19 +13,17 @@ constexpr size_t kTermNumbers = 6;
 
 // What each texel adds, in the arithmetic, in order: direction and flux. The last run is filled up with black ones.
 template <class T>
-Terms<T> texelTerms(const Probe& probe, int threads) {
+Terms<T> texelTerms(const ScaledTexels<T>& texels, int threads) {
     using Kept = typename Number<T>::Kept;
     constexpr int kWidth = Number<T>::lanes;
-    checkProbe(probe);
-    const TexelGrid grid(probe.shape);
-    const auto width = static_cast<size_t>(probe.shape.width);
-    const auto rows = static_cast<size_t>(probe.shape.layers() * probe.shape.height);
+    const auto width = static_cast<size_t>(texels.probe.shape.width);
+    const size_t rows = texels.rowCount();
     const size_t runs = (rows * width + kIrradianceRun - 1) / kIrradianceRun;
     Terms<T> terms(runs * kIrradianceRun * kTermNumbers, Kept(0.0));
     parallelFor(rows, threads, [&](size_t r) {
-        const TexelRow row = readTexels(probe, grid, static_cast<int>(r) / probe.shape.height,
-                                        static_cast<int>(r) % probe.shape.height);
+        const TexelRow row = readTexels(texels, r);
         IrradianceKernel<T> kernel;
+        const T radianceScale(std::ldexp(1.0, texels.scale.radiance));
         std::array<Kept, kWidth> lanes;
         forEachLaneGroup<kWidth>(width, [&](size_t first, int active) {
             typename IrradianceKernel<T>::vec3 direction, radiance;
@@ -35,7 +33,8 @@ Terms<T> texelTerms(const Probe& probe, int threads) {
                 radiance[c] = Number<T>::load(row.radiance[channel].data() + first);
             }
             const auto d = kernel.flooredTerm3(direction);
-            const auto flux = kernel.texelFlux(radiance, Number<T>::load(row.weight.data() + first));
+            const auto flux =
+                kernel.texelFlux(radiance, radianceScale, Number<T>::load(row.weight.data() + first));
             Kept* to = terms.data() + (r * width + first) * kTermNumbers;
             for (size_t number = 0; number < kTermNumbers; number++) {
                 const auto c = static_cast<glm::length_t>(number % 3);
@@ -50,7 +49,9 @@ Terms<T> texelTerms(const Probe& probe, int threads) {
 
 template <class T>
 TexelLights texelLightsOver(const Probe& probe, int threads) {
-    const Terms<T> terms = texelTerms<T>(probe, threads);
+    checkProbe(probe);
+    const ScaledTexels<T> scaled(probe, threads);
+    const Terms<T> terms = texelTerms<T>(scaled, threads);
     const ProbeShape& shape = probe.shape;
     const size_t texels = static_cast<size_t>(shape.layers()) * static_cast<size_t>(shape.width) *
                           static_cast<size_t>(shape.height);
@@ -59,7 +60,7 @@ TexelLights texelLightsOver(const Probe& probe, int threads) {
         for (size_t c = 0; c < 3; c++) {
             const auto* term = terms.data() + i * kTermNumbers + c;
             lights.directions[i][static_cast<glm::length_t>(c)] = numberLane(term[0], 0);
-            lights.flux[i][static_cast<glm::length_t>(c)] = numberLane(term[3], 0) / kFluxScale;
+            lights.flux[i][static_cast<glm::length_t>(c)] = scaled.scale.takenOut(numberLane(term[3], 0));
         }
     return lights;
 }
@@ -72,7 +73,9 @@ std::vector<glm::dvec3> irradianceAtOver(const Probe& probe, std::span<const glm
     constexpr size_t kWidth = Number<T>::lanes;
     // Groups of lanes that share a walk over the texels.
     constexpr size_t kGroups = 4, kItem = kGroups * kWidth;
-    const Terms<T> terms = texelTerms<T>(probe, threads);
+    checkProbe(probe);
+    const ScaledTexels<T> scaled(probe, threads);
+    const Terms<T> terms = texelTerms<T>(scaled, threads);
     const auto runs = static_cast<int>(terms.size() / (kTermNumbers * kIrradianceRun));
     std::vector<glm::dvec3> values(normals.size());
     parallelFor((normals.size() + kItem - 1) / kItem, threads, [&](size_t item) {
@@ -95,7 +98,8 @@ std::vector<glm::dvec3> irradianceAtOver(const Probe& probe, std::span<const glm
         for (size_t i = 0; i < count; i++) {
             const vec3 total = kernel.pendingSum(static_cast<int>(i / kWidth), 0);
             for (int c = 0; c < 3; c++)
-                values[first + i][c] = numberLane(total[c], static_cast<int>(i % kWidth)) / kFluxScale;
+                values[first + i][c] =
+                    scaled.scale.takenOut(numberLane(total[c], static_cast<int>(i % kWidth)));
         }
     });
     return values;

@@ -34,6 +34,7 @@ struct LightIrradianceKernel {
     const vec3& sourceDirection(int i) const { return sources[i].direction; }
     const vec3& sourceFlux(int i) const { return sources[i].flux; }
     const vec3& planeNormal(int) const { return onlyNormal; }
+    void setPlaneNormal(const vec3& normal) { onlyNormal = normal; }
     const vec3& pendingSum(int, int) const { return onlySum; }
     void setPendingSum(int, int, const vec3& sum) { onlySum = sum; }
 #include "probes/kernels/irradiance_sums.glsl"

@@ -88,11 +88,17 @@ struct HarmonicsKernel {
         }
     }
     void setCoefficients(const SphericalHarmonics& harmonics) {
+        double total = 0;
+        for (const glm::dvec3& c : harmonics.coefficients)
+            total += std::max(std::abs(c.x), std::max(std::abs(c.y), std::abs(c.z)));
+        const int exponent = sumExponent<T>(total);
+        unscale_ = PowerOfTwoHalves<T>(-exponent);
         for (size_t i = 0; i < harmonics.coefficients.size(); i++) {
-            const glm::dvec3& c = harmonics.coefficients[i];
-            coefficients_[i] = flooredTerm3(vec3(T(c.x), T(c.y), T(c.z)));
+            const auto scaled = [&](int c) { return T(std::ldexp(harmonics.coefficients[i][c], exponent)); };
+            coefficients_[i] = flooredTerm3(vec3(scaled(0), scaled(1), scaled(2)));
         }
     }
+    real coefficientUnscale(int part) const { return part == 0 ? unscale_.first : unscale_.second; }
     real harmonicRise(int i) const { return rise_[static_cast<size_t>(i)]; }
     real harmonicFall(int i) const { return fall_[static_cast<size_t>(i)]; }
     vec3 harmonicCoefficient(int i) const { return coefficients_[static_cast<size_t>(i)]; }
@@ -100,7 +106,9 @@ struct HarmonicsKernel {
     void setHarmonicValue(int i, real value) { values_[static_cast<size_t>(i)] = value; }
 
     const TexelRow* row = nullptr;
+    real scaleOfRadiance{1.0};  // two to FluxScale::radiance
     vec3* projectedSums = nullptr;
+    real radianceScale() const { return scaleOfRadiance; }
     // Of texel x and the ones behind it in lanes.
     vec3 texelDirection(int x) const { return texelVector(row->direction, x); }
     vec3 texelRadiance(int x) const { return texelVector(row->radiance, x); }
@@ -119,6 +127,7 @@ struct HarmonicsKernel {
 
     std::array<T, kMaxHarmonicCount> rise_, fall_, values_;
     std::array<vec3, kMaxHarmonicCount> coefficients_;
+    PowerOfTwoHalves<T> unscale_{0};
 };
 
 // The harmonics at a unit direction, in double; kHarmonicDoubleError.

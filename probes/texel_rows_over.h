@@ -23,10 +23,30 @@ void readCubeDirections(int size, int layer, int y, TexelRow& row) {
     }
 }
 
-// A row of a checked probe, directions in the world.
-inline TexelRow readTexels(const Probe& probe, const TexelGrid& grid, int layer, int y) {
+// The texels of a checked probe as T adds them.
+template <class T>
+struct ScaledTexels {
+    ScaledTexels(const Probe& of, int threads)
+        : probe(of),
+          grid(of.shape),
+          weights(texelWeightsOf(of, grid, TermLimits<T>::largest(), threads)),
+          scale(fluxScaleOf<T>(weights)) {}
+    size_t rowCount() const { return static_cast<size_t>(probe.shape.layers() * probe.shape.height); }
+
+    const Probe& probe;
+    TexelGrid grid;
+    TexelWeights weights;
+    FluxScale scale;
+};
+
+// A row of them, directions in the world.
+template <class T>
+TexelRow readTexels(const ScaledTexels<T>& texels, size_t r) {
+    const Probe& probe = texels.probe;
+    const TexelGrid& grid = texels.grid;
+    const int layer = static_cast<int>(r) / probe.shape.height, y = static_cast<int>(r) % probe.shape.height;
     TexelRow row = readRadiance(probe, layer, y);
-    readWeights(grid, layer, y, row);
+    readWeights(texels.weights, r * static_cast<size_t>(probe.shape.width), texels.scale.weight, row);
     if (probe.shape.mapping == Mapping::cube)
         readCubeDirections<Native<double>>(probe.shape.width, layer, y, row);
     else

@@ -10,23 +10,19 @@ namespace {
 
 constexpr double kSmallestDepth = Projection<double>::kSmallestDepth;
 
-// The unit of the constant bias: the smallest step of a UNORM format, or of a float near the largest depth.
-double biasUnit(DepthFormat format, double largest) {
+// The unit of the constant bias: that of a UNORM format, or the step of a float near the largest depth.
+double biasUnit(const RenderTargetFormat& format, double largest) {
     constexpr int kFloatFractionBits = 23;
-    switch (format) {
-        case DepthFormat::d16:
-            return 0x1p-16;
-        case DepthFormat::d24:
-            return 0x1p-24;
-        case DepthFormat::d32f:
-            break;
+    if (format.depth != DepthFormat::d32f) {
+        const double levels = depthLevels(format.depth);
+        return format.biasUnit == BiasUnit::step ? 1 / levels : 2 / (levels + 1);
     }
     return std::ldexp(1.0, std::ilogb(std::max(largest, kSmallestDepth)) - kFloatFractionBits);
 }
 
 }  // namespace
 
-double depthBias(const DepthBias& bias, DepthFormat format, const TriangleRecord& record, int subpixelBits) {
+double depthBias(const DepthBias& bias, const RenderTargetFormat& format, const TriangleRecord& record) {
     const std::array<double, 3>& z = record.z;
     if (bias.constant == 0 && bias.slopeScale == 0) return 0;
     const auto x = [&](size_t i) {
@@ -35,7 +31,7 @@ double depthBias(const DepthBias& bias, DepthFormat format, const TriangleRecord
     const auto y = [&](size_t i) {
         return static_cast<double>(int64_t{record.y_subpx[i]} - record.y_subpx[0]);
     };
-    const double perPixel = static_cast<double>(1 << subpixelBits) / static_cast<double>(record.area);
+    const double perPixel = static_cast<double>(1 << format.subpixelBits) / static_cast<double>(record.area);
     const double slopeX = ((z[1] - z[0]) * y(2) - (z[2] - z[0]) * y(1)) * perPixel;
     const double slopeY = ((z[2] - z[0]) * x(1) - (z[1] - z[0]) * x(2)) * perPixel;
     const double slope = std::max(std::fabs(slopeX), std::fabs(slopeY));

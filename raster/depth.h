@@ -50,6 +50,6 @@ template <class S, int N>
 }
 
 // The bias of rule 7 for a triangle, in depth units; 0 for the default DepthBias.
-double depthBias(const DepthBias& bias, DepthFormat format, const TriangleRecord& record, int subpixelBits);
+double depthBias(const DepthBias& bias, const RenderTargetFormat& format, const TriangleRecord& record);
 
 }  // namespace etalon

@@ -14,8 +14,14 @@ template <>
 inline constexpr auto kNames<DepthFormat> = std::to_array<std::string_view>({"d16", "d24", "d32f"});
 static_assert(isLastName(DepthFormat::d32f));
 template <>
+inline constexpr auto kNames<VolumeStencil> = std::to_array<std::string_view>({"exact", "8-bit"});
+static_assert(isLastName(VolumeStencil::bits8));
+template <>
 inline constexpr auto kNames<DepthRounding> = std::to_array<std::string_view>({"exact", "driver"});
 static_assert(isLastName(DepthRounding::driver));
+template <>
+inline constexpr auto kNames<BiasUnit> = std::to_array<std::string_view>({"step", "driver"});
+static_assert(isLastName(BiasUnit::driver));
 template <>
 inline constexpr auto kNames<Filter> = std::to_array<std::string_view>({"nearest", "bilinear"});
 static_assert(isLastName(Filter::bilinear));

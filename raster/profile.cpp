@@ -7,9 +7,10 @@ namespace {
 
 // Sources: Direct3D 11.3 [D3D11.3, secs. 3, 7.18], Vulkan's minimum limits [VulkanSpec, "Required Limits"],
 // R300 and NV40 as far as their vendors documented them (docs/references.md). What is documented of each field and what
-// is assumed: scene/profile_text.cpp.
+// is assumed: scene/profile_text.cpp. Those that imitate hardware or a specification have its stencil of 8 bits: they are
+// the ones whose depths are integers.
 std::array<Profile, 10> namedProfiles() {
-    return {{
+    std::array<Profile, 10> named = {{
         {"f32", "IEEE single precision, exact texture fractions, D32F", Arithmetic::fp32},
         {"f64", "IEEE double precision, exact texture fractions, D32F", Arithmetic::fp64, RasterReal::fp64},
         {"truth",
@@ -34,6 +35,9 @@ std::array<Profile, 10> namedProfiles() {
         {"fp16", "IEEE half precision for fragments, single for vertices, D32F", Arithmetic::fp16},
         {"bf16", "bfloat16 for fragments, single for vertices, D32F", Arithmetic::bf16},
     }};
+    for (Profile& profile : named)
+        if (profile.depth != DepthFormat::d32f) profile.volumeStencil = VolumeStencil::bits8;
+    return named;
 }
 
 }  // namespace

@@ -14,6 +14,10 @@
 
 namespace etalon {
 
+// What shadow volumes are counted in: as many bits as their triangles need, or the 8 bits of a stencil, which wrap: what is
+// behind a multiple of 256 of them then counts as lit.
+enum class VolumeStencil : uint8_t { exact, bits8 };
+
 struct Profile {
     std::string name;
     std::string meaning;                   // one line
@@ -25,6 +29,8 @@ struct Profile {
     int textureFractionBits = kExactFraction;
     Filter textureFilter = Filter::bilinear;    // of float textures
     Arithmetic environment = Arithmetic::fp64;  // of what is made of an environment to light surfaces with
+    BiasUnit biasUnit = BiasUnit::step;         // of constant depth bias
+    VolumeStencil volumeStencil = VolumeStencil::exact;
 };
 
 // How float textures are sampled.

@@ -44,7 +44,6 @@ std::span<const std::array<int, 2>> samplePositions(int samples) {
 RenderTarget::RenderTarget(int width, int height, const RenderTargetFormat& targetFormat)
     : format(targetFormat),
       depth(width, height, targetFormat.samples),
-      stencil(width, height, targetFormat.samples),
       id(width, height, targetFormat.samples) {
     samplePositions(format.samples);
     ETALON_CHECK(format.subpixelBits >= 4 && format.subpixelBits <= 8, "subpixelBits = {}",
@@ -52,9 +51,24 @@ RenderTarget::RenderTarget(int width, int height, const RenderTargetFormat& targ
     clear();
 }
 
+void RenderTarget::setStencil(int bits) {
+    ETALON_CHECK(bits == 8 || bits == 32, "stencil of {} bits", bits);
+    format.stencilBits = bits;
+    const auto clearIf = [&](bool isUsed, auto& image) {
+        if (!isUsed)
+            image = {};
+        else if (image.empty())
+            image = {width(), height(), format.samples};
+        else
+            image.fill(0);
+    };
+    clearIf(bits == 8, stencil);
+    clearIf(bits == 32, wideStencil);
+}
+
 void RenderTarget::clear() {
     depth.fill(farthestDepth(format.depth));
-    stencil.fill(0);
+    setStencil(format.stencilBits);
     id.fill(kNoTriangle);
     forgetTriangles();
 }

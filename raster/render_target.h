@@ -57,12 +57,18 @@ struct TriangleRecord {
     bool front, reversed, clipped;
 };
 
+// The unit of the constant depth bias of UNORM formats of n bits: a step of the format, 1 / (2^n - 1) [D3D11.3,
+// sec. 15.10], or the 2^-(n - 1) of measured drivers, twice that.
+enum class BiasUnit : uint8_t { step, driver };
+
 struct RenderTargetFormat {
     int samples = 1;       // 1, 4 or 16
     int subpixelBits = 8;  // 4 to 8
     DepthFormat depth = DepthFormat::d32f;
     DepthRounding depthRounding = DepthRounding::exact;
     RasterReal real = RasterReal::fp32;
+    BiasUnit biasUnit = BiasUnit::step;
+    int stencilBits = 8;  // 8, or 32: a stencil that counts and does nothing else
 
     friend bool operator==(const RenderTargetFormat&, const RenderTargetFormat&) = default;
 };
@@ -94,6 +100,8 @@ class RenderTarget {
 
     // Back to the state after construction; keeps the memory.
     void clear();
+    // A stencil of so many bits, cleared.
+    void setStencil(int bits);
     // The part of it besides depth, stencil and id.
     void forgetTriangles();
 
@@ -110,7 +118,8 @@ class RenderTarget {
 
     RenderTargetFormat format;
     Image<uint32_t> depth;
-    Image<uint8_t> stencil;
+    Image<uint8_t> stencil;       // of 8 bits; else empty
+    Image<uint32_t> wideStencil;  // of 32 bits; else empty
     Image<uint32_t> id;
     uint32_t drawCount = 0;  // draws so far; StoredTriangle::draw counts over all calls of rasterize
 

@@ -3,6 +3,6 @@
 
 namespace etalon {
 
-inline constexpr int kRulesVersion = 3;
+inline constexpr int kRulesVersion = 4;
 
 }  // namespace etalon

@@ -44,12 +44,11 @@ struct Piece {
 
 // What a draw does with its samples; the two special ones are written out for speed.
 //   plain: less passes and is written, no stencil
-//   counting: less passes, nothing is written but a stencil that every sample adds 1, 0 or -1 to (modulo
-//   256), by
+//   counting: less passes, nothing is written but a stencil that every sample adds 1, 0 or -1 to (modulo 2^bits), by
 //             the outcome of the depth test
 enum class DrawKind { any, plain, counting };
 
-// 1, 0 or -1 for an operation that adds it modulo 256; else kNoFixedNumber.
+// 1, 0 or -1 for an operation that adds it and wraps; else kNoFixedNumber.
 constexpr int kNoFixedNumber = 2;
 int addedBy(StencilOperation operation) {
     switch (operation) {
@@ -204,7 +203,7 @@ class TileRasterizerOfLevel final : public TileRasterizer {
     }
     void count(const Group& group, GroupInt added) {
         int32_t* at = &stencil_[group.offset];
-        storeGroup((loadGroup(at, stride_) + added) & splat(0xff), at, stride_);
+        storeGroup((loadGroup(at, stride_) + added) & splat(stencilMask_), at, stride_);
     }
     const DepthRange& rangeOf(const Piece& block, int sample) const {
         const int row = (block.y0 - rectangle_.tileY) / kBlockSize,
@@ -235,6 +234,7 @@ class TileRasterizerOfLevel final : public TileRasterizer {
     size_t stride_ = 0;
     std::vector<SampleInterval> intervals_;  // in x, in y
     std::vector<int32_t> depth_, id_, stencil_;
+    int32_t stencilMask_ = 0xff;
     std::vector<Piece> group_;
     // What the blocks of each sample's plane store, row after row; empty if some draw writes depth.
     std::vector<DepthRange> ranges_;
@@ -250,9 +250,16 @@ void TileRasterizerOfLevel::run(const TileWork& work, const Rectangle& rectangle
     intervals_ = {SampleInterval(format_, 0), SampleInterval(format_, 1)};
     rows_ = rectangle.y1 - rectangle.tileY + kGroupRows - 1;
     stride_ = static_cast<size_t>(rectangle.x1 - rectangle.tileX + kGroupWidth - 1);
+    for (const Draw& draw : work.draws)
+        ETALON_CHECK(format_.stencilBits == 8 || !draw.state.stencil.enabled ||
+                         kindOf(draw.state) == DrawKind::counting,
+                     "a stencil of {} bits only counts", format_.stencilBits);
     load(true, work, target.depth, farthestDepth(format_.depth), depth_);
     load(work.usesId, work, target.id, kNoTriangle, id_);
-    load(work.usesStencil, work, target.stencil, uint8_t{0}, stencil_);
+    const bool isWide = format_.stencilBits == 32;
+    stencilMask_ = isWide ? -1 : 0xff;
+    load(work.usesStencil && !isWide, work, target.stencil, uint8_t{0}, stencil_);
+    load(work.usesStencil && isWide, work, target.wideStencil, uint32_t{0}, stencil_);
     ranges_.clear();
     if (!work.writesDepth && work.usesStencil) findRanges();
     if (format_.real == RasterReal::fp32)
@@ -261,7 +268,10 @@ void TileRasterizerOfLevel::run(const TileWork& work, const Rectangle& rectangle
         drawAll<double>(work, triangles);
     store(true, work, target.depth, farthestDepth(format_.depth), depth_);
     store(work.usesId, work, target.id, kNoTriangle, id_);
-    store(work.usesStencil, work, target.stencil, uint8_t{0}, stencil_);
+    if (isWide)
+        store(work.usesStencil, work, target.wideStencil, uint32_t{0}, stencil_);
+    else
+        store(work.usesStencil, work, target.stencil, uint8_t{0}, stencil_);
 }
 
 // Calls copy(first value of the row in the image, offset in the tile's plane, count) for each row of the
@@ -347,7 +357,7 @@ Piece TileRasterizerOfLevel::preparePiece(const RenderTarget& target, uint32_t n
     piece.state = &state;
     piece.bias = state.bias.constant == 0 && state.bias.slopeScale == 0
                      ? 0
-                     : depthBias(state.bias, format_.depth, target.triangle(number), format_.subpixelBits);
+                     : depthBias(state.bias, format_, target.triangle(number));
     return piece;
 }
 

@@ -78,9 +78,10 @@ bool isProfileFile(std::string_view nameOrFile) { return nameOrFile.ends_with(".
 Profile readProfileFile(const std::filesystem::path& path) {
     const TomlValue document = readToml(path, "profile file");
     const std::string file = path.string();
-    const TableReader reader(file, document, "the profile",
-                             {"base", "fragment", "vertex", "depth", "depth_rounding", "subpixel_bits",
-                              "texture_fraction_bits", "texture_filter", "environment"});
+    const TableReader reader(
+        file, document, "the profile",
+        {"base", "fragment", "vertex", "depth", "depth_rounding", "subpixel_bits", "texture_fraction_bits",
+         "texture_filter", "environment", "depth_bias_unit", "volume_stencil"});
     const std::string base = reader.has("base") ? reader.choice("base", profileNames()) : "f32";
     Profile profile = *findProfile(base);
     profile.name = path.filename().string();
@@ -101,6 +102,8 @@ Profile readProfileFile(const std::filesystem::path& path) {
     }
     read(reader, "texture_filter", profile.textureFilter);
     profile.environment = readArithmetic(reader, "environment", profile.environment);
+    read(reader, "depth_bias_unit", profile.biasUnit);
+    read(reader, "volume_stencil", profile.volumeStencil);
     return profile;
 }
 

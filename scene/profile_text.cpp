@@ -36,6 +36,8 @@ constexpr Note kNotes[] = {
     {"d3d11", "subpixel_bits", "8 [D3D11.3]", ""},
     {"d3d11", "texture_fraction_bits", "at least 8 [D3D11.3, sec. 7.18]", ""},
     {"d3d11", "texture_filter", "", "float textures are filtered"},
+    {"d3d11", "depth_bias_unit", "1 / (2^n - 1) [D3D11.3, sec. 15.10]", ""},
+    {"d3d11", "volume_stencil", "D24 has a stencil of 8 bits [D3D11.3]", ""},
     {"d3d11", "environment", "", "made beforehand, by a host in double"},
 
     {"vulkan-min", "fragment", "32 bits [VulkanSpec]",
@@ -47,6 +49,8 @@ constexpr Note kNotes[] = {
     {"vulkan-min", "texture_fraction_bits",
      "the least subTexelPrecisionBits [VulkanSpec, \"Required Limits\"]", ""},
     {"vulkan-min", "texture_filter", "", "float textures are filtered"},
+    {"vulkan-min", "depth_bias_unit", "any constant of the format [VulkanSpec]", "a step"},
+    {"vulkan-min", "volume_stencil", "every format with a stencil has 8 bits [VulkanSpec]", ""},
     {"vulkan-min", "environment", "", "made beforehand, by a host in double"},
 
     {"nv40-fp32", "fragment.significand_bits", "23 fraction bits [Kilgariff2005]", ""},
@@ -63,6 +67,8 @@ constexpr Note kNotes[] = {
     {"nv40-fp32", "subpixel_bits", "", "8"},
     {"nv40-fp32", "texture_fraction_bits", "", "8"},
     {"nv40-fp32", "texture_filter", "fp16 textures are filtered, not fp32 [Kilgariff2005]", ""},
+    {"nv40-fp32", "depth_bias_unit", "", "a step"},
+    {"nv40-fp32", "volume_stencil", "", "8 bits beside 24 of depth"},
     {"nv40-fp32", "environment", "", "made beforehand, by a host in double"},
 
     {"nv40-fp16", "fragment.significand_bits", "10 fraction bits [Kilgariff2005]", ""},
@@ -79,6 +85,8 @@ constexpr Note kNotes[] = {
     {"nv40-fp16", "subpixel_bits", "", "8"},
     {"nv40-fp16", "texture_fraction_bits", "", "8"},
     {"nv40-fp16", "texture_filter", "fp16 textures are filtered [Kilgariff2005]", ""},
+    {"nv40-fp16", "depth_bias_unit", "", "a step"},
+    {"nv40-fp16", "volume_stencil", "", "8 bits beside 24 of depth"},
     {"nv40-fp16", "environment", "", "made beforehand, by a host in double"},
 
     {"r300-fp24", "fragment.significand_bits", "16 fraction bits, by a single source", ""},
@@ -98,6 +106,8 @@ constexpr Note kNotes[] = {
     {"r300-fp24", "subpixel_bits", "", "8"},
     {"r300-fp24", "texture_fraction_bits", "", "8"},
     {"r300-fp24", "texture_filter", "float textures are not filtered, by a single source", ""},
+    {"r300-fp24", "depth_bias_unit", "", "a step"},
+    {"r300-fp24", "volume_stencil", "", "8 bits beside 24 of depth"},
     {"r300-fp24", "environment", "", "made beforehand, by a host in double"},
 };
 
@@ -151,6 +161,8 @@ std::vector<ProfileField> profileFields(const Profile& profile) {
     else
         addNumber("texture_fraction_bits", profile.textureFractionBits);
     addName("texture_filter", profile.textureFilter);
+    addName("depth_bias_unit", profile.biasUnit);
+    addName("volume_stencil", profile.volumeStencil);
     addArithmetic("environment", profile.environment);
     return fields;
 }

@@ -88,13 +88,27 @@ Render readRender(const std::string& file, const TomlValue& value) {
         else
             render.profile = *findProfile(reader.choice("profile", profileNames()));
     }
+    render.origin = reader.member("origin", render.origin);
     if (reader.has("lighting")) render.perVertex = reader.choice("lighting") == "per_vertex";
     if (reader.has("occlusion")) render.occlusionDirections = reader.integer("occlusion");
     if (render.occlusionDirections == 0)
         reader.forbid("occlusion_size", "needs 'occlusion' of at least 1 beside it");
     if (reader.has("occlusion_size")) render.occlusionMapSize = reader.integer("occlusion_size");
+    if (reader.has("reflections")) render.reflections = reader.integer("reflections");
     if (reader.has("seed")) render.seed = static_cast<uint64_t>(reader.integer("seed", 0, INT64_MAX));
     return render;
+}
+
+void moveOrigin(Scene& scene, const glm::dvec3& to) {
+    const auto move = [&](glm::dmat4& toWorld) {
+        for (int c = 0; c < 3; c++) toWorld[3][c] -= to[c];
+    };
+    move(scene.camera.cameraToWorld);
+    for (MeshObject& mesh : scene.meshes) std::ranges::for_each(mesh.objectToWorld, move);
+    for (Plane& plane : scene.planes) plane.point -= to;
+    for (SceneLight& light : scene.lights)
+        if (light.kind != LightKind::directional) light.position_m -= to;
+    scene.origin_m += to;
 }
 
 std::string where(const Scene& scene, int line) {
@@ -122,6 +136,7 @@ Scene loadScene(const std::filesystem::path& path) {
         scene.output.images = {"beauty"};
     if (top.has("render")) scene.render = readRender(file, top.value("render"));
     nameObjects(top, scene);
+    if (scene.render.origin == Origin::eye) moveOrigin(scene, glm::dvec3(scene.camera.cameraToWorld[3]));
     return scene;
 }
 

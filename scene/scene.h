@@ -93,6 +93,8 @@ inline constexpr auto kNames<EnvironmentLightMethod> =
 static_assert(isLastName(EnvironmentLightMethod::blurred));
 // Most lights of a median cut, largest edge of a map of irradiance.
 inline constexpr int kMaxEnvironmentLights = 65536, kMaxLightMapSize = 512;
+// Most reflections of mirrors in mirrors.
+inline constexpr int kMaxReflections = 16;
 // Most directions of ambient occlusion, and largest edge of their depth maps.
 inline constexpr int kMaxOcclusionDirections = 4096, kMaxOcclusionMapSize = 8192;
 // Most lights of an environment that cast shadows.
@@ -110,11 +112,11 @@ struct Environment {
     EnvironmentLightMethod lighting = EnvironmentLightMethod::none;
     int lightCount = 64;  // of lights: a power of two
     int mapSize = 32;     // of map and blurred: texels along a face
-    // Of lights and dominant: shadows of the `shadowLights` lights that stand for the smallest solid angles;
+    // Of lights and dominant: shadows of the `shadowLights` lights, if there are more, that stand for the smallest angles;
     // or, where shadowShare is above 0, of those with at least this part of the environment's energy, no more
     // than kMaxShadowLights (shadows/casting_lights.h).
     LightShadow shadow;
-    int shadowLights = 4;
+    int shadowLights = kMaxShadowLights;
     double shadowShare = 0;
 };
 
@@ -172,19 +174,31 @@ struct Output {
     double exposure = 0;                // stops; for PNG
 };
 
+// What coordinates are relative to before the profile's arithmetic rounds them: the world's origin, as on a GPU that is
+// given world positions, or the eye, as engines for large worlds have it.
+enum class Origin : uint8_t { world, eye };
+template <>
+inline constexpr auto kNames<Origin> = std::to_array<std::string_view>({"world", "eye"});
+static_assert(isLastName(Origin::eye));
+
 struct Render {
     int line = 0;
+    Origin origin = Origin::world;
     int samples = 1;  // per pixel: 1, 4 or 16
     Profile profile = profiles().front();
     bool perVertex = false;  // lights are evaluated at vertices (Gouraud), else at pixels (Phong)
     // Directions that ambient occlusion is found from, and texels along an edge of the depth map of each
     // (shadows/ambient_occlusion.h). 0 directions: surfaces see all of their surroundings.
     int occlusionDirections = 0, occlusionMapSize = 512;
+    // Of mirrors that show the scene: in the last one of mirrors in mirrors the environment is seen.
+    int reflections = 1;
     uint64_t seed = 0;
 };
 
 struct Scene {
     std::filesystem::path file;
+    // Where in the file's world the origin of all positions below lies: 0, or with Origin::eye the camera's position.
+    glm::dvec3 origin_m{0.0};
     Camera camera;
     Environment environment;
     glm::dvec3 ambient{0.0};          // radiance from everywhere, seen by diffuse surfaces only
@@ -195,6 +209,9 @@ struct Scene {
     Output output;
     Render render;
 };
+
+// Moves every position of the scene by -to, and its origin to there, in double.
+void moveOrigin(Scene& scene, const glm::dvec3& to);
 
 // "file:line", the place of a part of the scene, for messages; "file" when the line is 0.
 std::string where(const Scene& scene, int line);

@@ -297,6 +297,10 @@ TableSchema makeTable(SceneTable table) {
                         formatText("`{}`; or a file that ends in `.toml`, relative to the scene file",
                                    joinText(profileNames(), "`, `")),
                         formatText("`{}`", render.profile.name), "the arithmetic: [profiles](profiles.md)"),
+                     choice<Origin>(
+                         {"origin"}, code(render.origin),
+                         "what positions are relative to in the profile's arithmetic: `world` rounds large "
+                         "coordinates, `eye` makes them relative to the camera in double first"),
                      choiceOf({"lighting"}, {"per_pixel", "per_vertex"},
                               render.perVertex ? "`per_vertex`" : "`per_pixel`",
                               "where lights are evaluated: Phong or Gouraud shading"),
@@ -307,6 +311,10 @@ TableSchema makeTable(SceneTable table) {
                              "texels along an edge of the depth map of each of these directions, which holds "
                              "the whole "
                              "scene"),
+                     integer({"reflections"}, 1, kMaxReflections, text(render.reflections),
+                             "of mirrors with `reflection = \"scene\"` in each other; behind the last one "
+                             "they show the "
+                             "environment"),
                      of(KeyType::integer, {"seed"}, "0 to 2^63 - 1", formatText("{}", render.seed),
                         "for random choices")}};
     }

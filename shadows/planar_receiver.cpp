@@ -36,7 +36,7 @@ PlanarReceiver PlanarReceiver::reversed() const {
 
 std::optional<PlanarReceiver> planarReceiverOf(const PlacedMesh& mesh) {
     const std::vector<uint32_t>& indices = mesh.mesh->indices;
-    double largestSquare = 0, largestCoordinate = 0;
+    double largestSquare = 0;
     glm::dvec3 normal(0), origin(0);
     for (size_t first = 0; first + 2 < indices.size(); first += 3) {
         const glm::dvec3 &a = mesh.positions[indices[first]], &b = mesh.positions[indices[first + 1]],
@@ -46,7 +46,6 @@ std::optional<PlanarReceiver> planarReceiverOf(const PlacedMesh& mesh) {
         const double square = n.x * n.x + (n.y * n.y + n.z * n.z);
         if (!std::isfinite(square)) return std::nullopt;
         if (square > largestSquare) largestSquare = square, normal = n, origin = a;
-        largestCoordinate = std::max({largestCoordinate, largestOf(a), largestOf(b), largestOf(c)});
     }
     if (largestSquare == 0) return std::nullopt;
     if (mesh.mirrored) normal = {-normal.x, -normal.y, -normal.z};
@@ -57,9 +56,7 @@ std::optional<PlanarReceiver> planarReceiverOf(const PlacedMesh& mesh) {
         const glm::dvec3 p = receiver.frame.toFrame(position);
         receiver.corners_m.emplace_back(p.x, p.y);
     }
-    for (const uint32_t i : indices)
-        if (!(std::abs(receiver.frame.toFrame(mesh.positions[i]).z) <= kFlatness * largestCoordinate))
-            return std::nullopt;
+    if (!planeOf(mesh).exists) return std::nullopt;
     return receiver;
 }
 

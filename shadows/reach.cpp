@@ -37,7 +37,7 @@ struct Bounds {
     explicit Bounds(std::span<const PlacedMesh> placed) {
         for (const PlacedMesh& mesh : placed)
             for (const glm::dvec3& p : mesh.positions) {
-                if (!(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z))) continue;
+                if (!isFinite(p)) continue;
                 for (int k = 0; k < 3; k++)
                     low[k] = std::min(low[k], p[k]), high[k] = std::max(high[k], p[k]);
                 largest = std::max(largest, largestOf(p));
@@ -84,25 +84,32 @@ bool isAllOpen(std::span<const PlacedMesh> placed, std::span<const SurfaceInstan
     if (!(radius_m > 0)) return true;
     const double tolerance_m = 2 * radius_m / mapSize * kPartOfTexel;
     if (!(std::ldexp(kRoundings, -significandBits) * std::max(bounds.largest, 2 * radius_m) <
-              2 * tolerance_m &&
-          kFlatness * bounds.largest <= tolerance_m / 2))
+          2 * tolerance_m))
         return false;
+    std::vector<MeshPlane> planes;
+    for (const PlacedMesh& mesh : placed) {
+        planes.push_back(planeOf(mesh));
+        if (!(planes.back().tolerance_m + mesh.placingError_m(bounds.largest) <= tolerance_m / 2))
+            return false;
+    }
     const double tilt = tolerance_m / (2 * radius_m);
     for (size_t i = 0; i < placed.size(); i++) {
         if (!marked[i] || placed[i].mesh->indices.empty()) continue;
         const PlacedMesh& mesh = placed[i];
-        const MeshPlane plane = planeOf(mesh);
+        const MeshPlane& plane = planes[i];
         if (!plane.exists) return false;
         const double side = dotOf(plane.normal, mesh.normals[mesh.mesh->indices[0]]) > 0 ? 1 : -1;
         for (const uint32_t v : mesh.mesh->indices) {
             const glm::dvec3 lean = unitOf(mesh.normals[v]) - side * plane.normal;
             if (!(lengthOf(lean) <= tilt)) return false;
         }
-        for (const PlacedMesh& other : placed)
-            for (const glm::dvec3& p : other.positions) {
-                const double height_m = side * plane.above(p), allowed_m = plane.toleranceAt_m(p);
+        for (size_t j = 0; j < placed.size(); j++) {
+            const double allowed_m = std::max(plane.tolerance_m, planes[j].tolerance_m);
+            for (size_t v = 0; v < placed[j].mesh->positions.size(); v++) {
+                const double height_m = side * plane.above(exactPosition(placed[j], v));
                 if (height_m > allowed_m || (instances[i].twoSided && height_m < -allowed_m)) return false;
             }
+        }
     }
     return true;
 }

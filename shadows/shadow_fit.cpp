@@ -15,8 +15,6 @@ constexpr double kDepthMargin = 0x1p-10;
 // Texel edges of snapped layers have so many significant bits, so that they rarely change.
 constexpr int kTexelBits = 5;
 
-bool isFinite(const glm::dvec3& a) { return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z); }
-
 // Right, down and forward of a light that shines along `forward` (unit); right is perpendicular to +Y, or to
 // +Z where forward is within 26 degrees (cosine 0.9) of the Y axis.
 void setAxes(ShadowProjection& projection, const glm::dvec3& forward) {
@@ -110,14 +108,17 @@ Box boxOf(const PlacedMesh& mesh) {
     return box;
 }
 
-// Whether all of a receiver lies on the light's side of a flat caster.
-bool isBefore(const MeshPlane& plane, const PlacedMesh& receiver, const SurfaceLight& light) {
+// Whether all of a receiver lies on the light's side of a flat caster. tolerance_m: of its vertices.
+bool isBefore(const MeshPlane& plane, const PlacedMesh& receiver, double tolerance_m,
+              const SurfaceLight& light) {
     const double side = light.kind == LightKind::directional ? dotOf(plane.normal, light.toLight)
                                                              : plane.above(light.position_m);
     const double error = light.kind == LightKind::directional ? kFlatness : plane.tolerance_m;
     if (std::fabs(side) <= error) return true;  // seen from its edge
-    for (const glm::dvec3& p : receiver.positions)
-        if (plane.above(p) * (side > 0 ? 1 : -1) < -plane.toleranceAt_m(p)) return false;
+    for (size_t i = 0; i < receiver.mesh->positions.size(); i++)
+        if (plane.above(exactPosition(receiver, i)) * (side > 0 ? 1 : -1) <
+            -(plane.tolerance_m + tolerance_m))
+            return false;
     return true;
 }
 
@@ -155,9 +156,11 @@ void placeTexels(ShadowProjection& projection, const double low[2], const double
     }
 }
 
-void placeDepths(ShadowProjection& projection, double nearest, double farthest) {
-    const double margin = std::max(kDepthMargin * (farthest - nearest), kFlatness * std::fabs(farthest));
-    projection.far_m = farthest + std::max(margin, 1e-9);
+// error_m: of the depths that are drawn.
+void placeDepths(ShadowProjection& projection, double nearest, double farthest, double error_m) {
+    const double margin =
+        std::max({kDepthMargin * (farthest - nearest), error_m, std::numeric_limits<double>::min()});
+    projection.far_m = farthest + margin;
     if (projection.isPerspective) {
         projection.near_m = std::max(nearest - margin, projection.far_m * kShadowNearRatio);
         projection.depthScale = projection.far_m / (projection.far_m - projection.near_m);
@@ -165,7 +168,7 @@ void placeDepths(ShadowProjection& projection, double nearest, double farthest) 
         return;
     }
     // The origin moves onto the near plane.
-    const double near_m = nearest - std::max(margin, 1e-9);
+    const double near_m = nearest - margin;
     projection.origin = projection.origin + scaledBy(projection.forward, near_m);
     projection.far_m -= near_m;
     projection.near_m = 0;
@@ -242,6 +245,7 @@ ShadowFit fitShadowMap(std::span<const PlacedMesh> placed, const SurfaceLight& l
 
     // Pairs of a caster and a receiver behind it.
     Extent casters, behind;
+    double error_m = 0;
     for (uint32_t c = 0; c < placed.size(); c++) {
         bool matters = false;
         for (uint32_t r = 0; r < placed.size(); r++) {
@@ -250,13 +254,17 @@ ShadowFit fitShadowMap(std::span<const PlacedMesh> placed, const SurfaceLight& l
             if (caster.isEmpty() || receiver.isEmpty() || !caster.overlaps(receiver) ||
                 !(caster.nearest < receiver.farthest))
                 continue;
-            if (planes[c].exists && (c == r || isBefore(planes[c], placed[r], light))) continue;
+            if (planes[c].exists && (c == r || isBefore(planes[c], placed[r], planes[r].tolerance_m, light)))
+                continue;
             matters = true;
             behind.add(receiver);
         }
         if (!matters) continue;
         fit.casters.push_back(c);
         casters.add(extents[c]);
+        const Box box = boxOf(placed[c]);
+        error_m =
+            std::max(error_m, placed[c].placingError_m(std::max(largestOf(box.low), largestOf(box.high))));
     }
     if (fit.casters.empty()) return fit;
 
@@ -272,7 +280,7 @@ ShadowFit fitShadowMap(std::span<const PlacedMesh> placed, const SurfaceLight& l
         projection.scale = settings.size / 2.0;
         projection.centreU = projection.centreV = projection.width / 2.0;
         // A distance is at most sqrt(3) of the depth in its face, and in the border a little more.
-        placeDepths(projection, nearest / 2, behind.farthest);
+        placeDepths(projection, nearest / 2, behind.farthest, error_m);
         for (int face = 0; face < kCubeFaces; face++)
             fit.layerDrawn.push_back(std::any_of(
                 boxes.begin(), boxes.end(), [&](const Box& box) { return isInFace(box, projection, face); }));
@@ -290,7 +298,7 @@ ShadowFit fitShadowMap(std::span<const PlacedMesh> placed, const SurfaceLight& l
     }
     fit.layerDrawn = {true};
     placeTexels(projection, low, high, settings);
-    placeDepths(projection, casters.nearest, behind.farthest);
+    placeDepths(projection, casters.nearest, behind.farthest, error_m);
     return fit;
 }
 

@@ -89,6 +89,7 @@ ShadowMap renderShadowMap(const SurfaceScene& scene, const std::vector<PlacedMes
     format.depth = map.format();
     format.depthRounding = profile.depthRounding;
     format.real = profile.vertex;
+    format.biasUnit = profile.biasUnit;
     RasterOptions cleared = options;
     cleared.clear = true;
     VisibleScene visible{RenderTarget(fit.projection.width, fit.projection.width, format), {}, {}, {}};

@@ -175,12 +175,21 @@ VolumeShadows::VolumeShadows(const SurfaceScene& scene, const std::vector<Placed
         // Depths stay; the triangles of the volumes are not kept.
         RenderTarget& target = visible.target;
         target.forgetTriangles();
-        std::fill(target.stencil.values().begin(), target.stencil.values().end(), uint8_t{0});
+        uint64_t triangles = 0;
+        for (const Draw& draw : draws) triangles += draw.triangleCount();
+        constexpr uint64_t kCountedIn8Bits = 255;
+        target.setStencil(profile.volumeStencil == VolumeStencil::bits8 || triangles <= kCountedIn8Bits ? 8
+                                                                                                        : 32);
         statistics_.raster = rasterize(target, {0, 0, view.width, view.height}, draws, raster);
-        lit_[l] = target.stencil;
-        const std::span<uint8_t> lit = lit_[l].values();
-        for (size_t i = 0; i < lit.size(); i++)
-            lit[i] = lit[i] == 0 || instance_.values()[i] == kNoInstance ? 1 : 0;
+        lit_[l] = Image<uint8_t>(target.width(), target.height(), target.format.samples);
+        const auto mark = [&](const auto& counts) {
+            for (size_t i = 0; i < counts.size(); i++)
+                lit_[l].values()[i] = counts[i] == 0 || instance_.values()[i] == kNoInstance ? 1 : 0;
+        };
+        if (target.format.stencilBits == 8)
+            mark(target.stencil.values());
+        else
+            mark(target.wideStencil.values());
     }
 }
 

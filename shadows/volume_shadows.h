@@ -46,7 +46,8 @@ struct VolumeShadowStatistics {
 //     a triangle has the bits of the triangle itself, which therefore never shadows itself. A surface within
 //     some steps of depth of a volume's face may be on the wrong side of it.
 //   - The vertices are snapped to subpixels (rule 3), so borders are off by up to 2^-n of a pixel.
-//   - The stencil counts modulo 256: a point behind a multiple of 256 casting triangles counts as lit.
+//   - With the profile's VolumeStencil::bits8 the counts are modulo 256: a point behind a multiple of 256 casting
+//     triangles counts as lit. Else they have 32 bits where there are more triangles.
 // The view is drawn with an infinite far plane (withInfiniteFar), so that no volume is cut behind.
 class VolumeShadows final : public LightVisibility {
   public:

@@ -21,7 +21,8 @@ vec3 irradianceOfHarmonics(vec3 n, int degree) {
 vec3 environmentIrradiance(vec3 n) {
     int kind = environmentKind();
     if (kind == 1) return irradianceOfHarmonics(n, environmentDegree());
-    if (kind == 2) return irradianceOfSources(n, 0, texelLightCount());
+    if (kind == 2)
+        return scale3(scale3(irradianceOfRuns(n, texelRunCount(), texelRunLength()), texelUnscale(0)), texelUnscale(1));
     if (kind == 3) return mapAlong(n);
     return vec3(real(0.0), real(0.0), real(0.0));
 }

@@ -10,10 +10,14 @@ layout(set = 3, binding = 1) uniform sampler2DArray irradianceMap;
 layout(std140, set = 3, binding = 2) uniform EnvironmentSettings {
     int environmentLightKind;
     int environmentLightDegree;
-    int environmentTexelCount;
+    int environmentTexelRuns;
+    int environmentTexelRunLength;
+    vec2 environmentTexelUnscales;
     Sampling irradianceMapSampling;
 };
 int environmentKind() { return environmentLightKind; }
 int environmentDegree() { return environmentLightDegree; }
-int texelLightCount() { return environmentTexelCount; }
+int texelRunCount() { return environmentTexelRuns; }
+int texelRunLength() { return environmentTexelRunLength; }
+real texelUnscale(int part) { return environmentTexelUnscales[part]; }
 vec3 mapAlong(vec3 direction) { return sampleCubeRgb(irradianceMap, direction, irradianceMapSampling); }

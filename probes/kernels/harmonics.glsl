@@ -30,14 +30,14 @@ void findHarmonics(vec3 direction, int degree) {
     }
 }
 
-// The function whose coefficients are harmonicCoefficient(0 .. (degree + 1)^2 - 1), at the unit direction d. Terms
-// are added in the order of their indices.
+// The function whose coefficients are harmonicCoefficient(0 .. (degree + 1)^2 - 1), scaled, at the unit direction d.
+// Terms are added in the order of their indices.
 vec3 sumOfHarmonics(vec3 d, int degree) {
     findHarmonics(d, degree);
     vec3 sum = scale3(harmonicCoefficient(0), harmonicValue(0));
     int count = (degree + 1) * (degree + 1);
     for (int i = 1; i < count; i++) sum = add3(sum, scale3(harmonicCoefficient(i), harmonicValue(i)));
-    return sum;
+    return scale3(scale3(sum, coefficientUnscale(0)), coefficientUnscale(1));
 }
 
 // Sets projectedSum(i) to the sum of flux times harmonic i over every `parts`-th texel of a row, from `first` on, in
@@ -46,7 +46,7 @@ void projectTexels(int first, int end, int parts, int degree) {
     int count = (degree + 1) * (degree + 1);
     for (int i = 0; i < count; i++) setProjectedSum(i, vec3(real(0.0), real(0.0), real(0.0)));
     for (int x = first; x < end; x += parts) {
-        vec3 flux = texelFlux(texelRadiance(x), texelWeight(x));
+        vec3 flux = texelFlux(texelRadiance(x), radianceScale(), texelWeight(x));
         findHarmonics(texelDirection(x), degree);
         for (int i = 0; i < count; i++)
             setProjectedSum(i, add3(projectedSum(i), scale3(flux, harmonicValue(i))));

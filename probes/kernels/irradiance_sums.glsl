@@ -34,3 +34,10 @@ void irradianceOfPlanes(int planes, int runs, int length) {
         setPendingSum(plane, 0, sum);
     }
 }
+
+// The irradiance of one plane from `runs` runs of `length` sources each, at least one.
+vec3 irradianceOfRuns(vec3 normal, int runs, int length) {
+    setPlaneNormal(normal);
+    irradianceOfPlanes(1, runs, length);
+    return pendingSum(0, 0);
+}

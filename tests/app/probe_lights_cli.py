@@ -24,7 +24,11 @@ class ProbeLights(cli_case.CliCase):
         write("bad.pfm", pfm(16, 8, [(-1.0, math.nan, 1.0)] + [(1.0, 1.0, 1.0)] * 127))
 
     def lights(self, *arguments):
-        return json.loads(self.expect(0, "probe", "lights", *arguments, "--json").stdout)
+        result = self.run_program("probe", "lights", *arguments, "--json")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        for line in result.stderr.splitlines():
+            self.assertRegex(line, "warning: .* of .* lights, because regions of one texel stay whole")
+        return json.loads(result.stdout)
 
     def test_lights_add_up_to_the_probe(self):
         for count in (1, 2, 16, 128):
@@ -46,6 +50,12 @@ class ProbeLights(cli_case.CliCase):
         self.assertEqual(self.lights("probe.pfm", "--log2", 4), self.lights("probe.pfm", "--count", 16))
         self.assertEqual(len(self.lights("probe.pfm", "--log2", 20)["lights"]), 128)
         self.assertEqual(len(self.lights("black.pfm")["lights"]), 64)
+
+    def test_fewer_lights_than_asked_for_are_named(self):
+        result = self.run_program("probe", "lights", "probe.pfm", "--log2", 20)
+        self.assertEqual(result.returncode, 0)
+        self.assertIn("probe.pfm: 128 of 1048576 lights, because", result.stderr)
+        self.expect(0, "probe", "lights", "probe.pfm", "--log2", 2)
 
     def test_threads_change_nothing(self):
         self.assertEqual(self.lights("probe.pfm", "--threads", 1), self.lights("probe.pfm", "--threads", 3))

@@ -71,7 +71,8 @@ class Profiles(CliCase):
             self.assertIn(f"# {profile['name']}: {profile['meaning']}\n", text)
             keys = [field["key"] for field in profile["fields"]]
             for key in ("vertex", "depth", "depth_rounding", "subpixel_bits", "texture_fraction_bits",
-                        "texture_filter", "environment"):
+                        "texture_filter", "depth_bias_unit", "volume_stencil",
+                        "environment"):
                 self.assertIn(key, keys)
         old = next(profile for profile in report if profile["name"] == "r300-fp24")
         fields = {field["key"]: field for field in old["fields"]}

@@ -175,3 +175,20 @@ TEST_CASE("WithoutLightingNothingIsAdded") {
     CHECK(scene.lights.empty());
     CHECK(scene.environment.light.kind == EnvironmentLight::Kind::none);
 }
+
+// One bright texel stays whole from the first cut that finds it; black regions give no light.
+TEST_CASE("FewerLightsOfAnEnvironmentThanAskedForAreNamed") {
+    Environment environment = environmentOf(EnvironmentLightMethod::lights);
+    environment.lightCount = 64;
+    SurfaceEnvironment radiance;
+    radiance.latLong = Image<float>(64, 32, 3);
+    for (int c = 0; c < 3; c++) radiance.latLong.at(20, 10, c) = 1;
+    const EnvironmentIllumination sun = environmentIllumination(environment, radiance, profiles()[0], 1);
+    CHECK(sun.lights.size() == 1);
+    REQUIRE(sun.warnings.size() == 1);
+    CHECK(sun.warnings[0].find("1 of 64 lights") != std::string::npos);
+    for (float& value : radiance.latLong.values()) value = 1;
+    const EnvironmentIllumination white = environmentIllumination(environment, radiance, profiles()[0], 1);
+    CHECK(white.lights.size() == 64);
+    CHECK(white.warnings.empty());
+}

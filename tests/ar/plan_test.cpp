@@ -293,6 +293,21 @@ TEST_CASE("MirrorsThatShowEachOtherNeedTheEnvironmentsCubeMap") {
     CHECK_FALSE(needs(plan, "mirror", "environment cube map"));
 }
 
+TEST_CASE("AReflectionMoreIsACubeMapMoreOfEachMirror") {
+    Scene scene = fullScene();
+    scene.meshes.back().reflection = Reflection::scene;
+    scene.render.reflections = 3;
+    const Plan plan = makePlan(scene, {}, seeingAll(scene));
+    CHECK(needs(plan, "mirror", "cube map of ball"));
+    CHECK(needs(plan, "cube map of ball", "cube map of plate, reflection 2 of 3"));
+    CHECK(needs(plan, "cube map of plate, reflection 2 of 3", "cube map of ball, reflection 1 of 3"));
+    CHECK_FALSE(needs(plan, "cube map of ball", "cube map of ball, reflection 2 of 3"));
+    // One that is alone has none.
+    scene.meshes.back().reflection = Reflection::environment;
+    CHECK(passOf(makePlan(scene, {}, seeingAll(scene)), "cube map of ball, reflection 2 of 3").reason ==
+          "no other mirror reflects the scene");
+}
+
 TEST_CASE("APngNeedsTheBeautyWhateverTheOutputsAre") {
     const Plan plan = makePlan(fullScene(), asking({"depth"}, true));
     for (const char* name : {"beauty", "shading", "tone mapping"}) CHECK(passOf(plan, name).runs);

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 
@@ -424,4 +425,31 @@ TEST_CASE("ResultsHoldNoMoreThanThePlanSays") {
             CHECK(result.plan.find("geometry")->held.lists_bytes > 0);
         }
     CHECK(checked > 100);
+}
+
+// Two mirror balls that reflect half of the light, in a white furnace: what n mirrors reflect one after the other is 2^-n,
+// and the cube maps of n reflections show n + 1 of them.
+TEST_CASE("MirrorsShowAsManyReflectionsAsAreAskedFor") {
+    const test::ScratchFolder folder;
+    const std::filesystem::path file = folder.path() / "scene.toml";
+    const std::string ball = "[[mesh]]\nfile = \"" +
+                             std::filesystem::absolute("scenes/meshes/sphere.ply").string() +
+                             "\"\nmaterial = \"m\"\nreflection = \"scene\"\ncube_size = 128\nscale = 0.5\n";
+    std::ofstream(file) << "[camera]\nwidth = 256\nheight = 192\nfov_y_deg = 40\nnear = 0.1\nfar = 20\n"
+                           "position = [0, 0, 3]\nlook_at = [0, 0, 0]\n[environment]\nconstant = [1, 1, 1]\n"
+                           "[material.m]\nkind = \"mirror\"\nreflectance = [0.5, 0.5, 0.5]\n"
+                        << ball << "translate = [-0.52, 0, 0]\n"
+                        << ball << "translate = [0.52, 0, 0]\n[output]\nimages = [\"beauty\"]\n";
+    Scene scene = loadScene(file);
+    for (int reflections = 1; reflections <= 3; reflections++) {
+        scene.render.reflections = reflections;
+        const Frame frame = frameOf(scene);
+        const std::span<const float> values = valuesOf(frame, 0);
+        CHECK(*std::ranges::min_element(values) == std::ldexp(1.0f, -1 - reflections));
+        CHECK(*std::ranges::max_element(values) == 1);
+    }
+    // What is nearer than the camera's near plane is reflected nevertheless.
+    scene.camera.near = 2;
+    const Frame frame = frameOf(scene);
+    CHECK(*std::ranges::min_element(valuesOf(frame, 0)) == 0x1p-4f);
 }

@@ -2,10 +2,15 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
+
+#include "lighting/render_view.h"
 #include "numeric/random.h"
 #include "raster/rasterizer.h"
+#include "tests/support/box_scene.h"
 
 using namespace etalon;
+using namespace etalon::test;
 
 namespace {
 
@@ -84,4 +89,27 @@ TEST_CASE("ATriangleWithAVertexThatIsNotFiniteIsInEveryList") {
     for (const glm::vec3& p : mesh.positions) placed.positions.emplace_back(p);
     placed.positions[1].x = placed.positions[1].z = placed.positions[1].y;
     for (const auto& list : trianglesOfFaces(placed, glm::dvec3(0), 1)) CHECK(list.size() == 1);
+}
+
+TEST_CASE("CubeDepthsHoldWhatIsSeen") {
+    SurfaceScene scene;
+    // A floor 2 m below, a wall 3 m away whose edges are nearer than its vertices.
+    addObject(scene, rectangle({0, -2, 0}, {10, 0, 0}, {0, 0, -10}), lambertian(0.5));
+    addObject(scene, rectangle({3, 0, 0}, {0, 0, 1}, {0, 1, 0}), lambertian(0.5));
+    const std::vector<PlacedMesh> placed = placeMeshes(scene, RasterReal::fp64, 1);
+    const CubeDepths both = cubeDepthsOf(placed, glm::dvec3(0), kNoInstance, 1);
+    CHECK(both.near_m == doctest::Approx(2 / (2 * std::sqrt(3.0))).epsilon(1e-12));
+    CHECK(both.far_m == doctest::Approx(std::sqrt(204.0)).epsilon(2e-3));
+    CHECK(both.far_m > std::sqrt(204.0));
+    const CubeDepths wall = cubeDepthsOf(placed, glm::dvec3(0), 0, 1);
+    CHECK(wall.near_m == doctest::Approx(3 / (2 * std::sqrt(3.0))).epsilon(1e-12));
+    // Beside the wall the nearest point is on its edge, beside an edge's end it is a corner.
+    CHECK(cubeDepthsOf(placed, {3, 0, 2}, 0, 1).near_m ==
+          doctest::Approx(1 / (2 * std::sqrt(3.0))).epsilon(1e-6));
+    CHECK(cubeDepthsOf(placed, {3, 4, 5}, 0, 1).near_m ==
+          doctest::Approx(5 / (2 * std::sqrt(3.0))).epsilon(1e-6));
+    // In the wall itself.
+    const CubeDepths inside = cubeDepthsOf(placed, {3, 0, 0}, 0, 1);
+    CHECK(inside.near_m == inside.far_m * kCubeNearRatio);
+    CHECK(cubeDepthsOf({}, glm::dvec3(0), kNoInstance, 1).far_m == 2);
 }

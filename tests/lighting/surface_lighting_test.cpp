@@ -267,6 +267,70 @@ TEST_CASE("TexelsLightAsTheLightsThatTheyAre") {
     CHECK(largeLast.environmentIrradiance({0, 1, 0}).x == 0x1p24f + 2.0f);
 }
 
+namespace {
+
+// Texels of equal flux in a spiral around the sphere.
+EnvironmentLight manyTexels(size_t count, double flux) {
+    EnvironmentLight light;
+    light.kind = EnvironmentLight::Kind::texels;
+    for (size_t i = 0; i < count; i++) {
+        const double y = 1 - (2 * static_cast<double>(i) + 1) / static_cast<double>(count);
+        const double angle_rad = 2.399963229728653 * static_cast<double>(i), r = std::sqrt(1 - y * y);
+        light.directions.push_back({r * std::cos(angle_rad), y, r * std::sin(angle_rad)});
+        light.flux.push_back(flux * glm::dvec3(1, 0.5, 0.1));
+    }
+    return light;
+}
+
+}  // namespace
+
+// Of the texels as T has them; a running sum of floats is off by 1e-4 here.
+TEST_CASE_TEMPLATE("TheSumOverManyTexelsKeepsItsBound", T, float, double, Lanes<float, 4>) {
+    constexpr size_t kCount = 1 << 18;
+    const EnvironmentLight light = manyTexels(kCount, 4 * kPi / kCount);
+    EnvironmentLighting<T> lighting(light, {});
+    constexpr double kRoundoff = std::numeric_limits<typename Number<T>::Stored>::epsilon() / 2;
+    const double bound = (kIrradianceRun + std::log2(double{kCount} / kIrradianceRun) + 8) * kRoundoff;
+    for (const glm::dvec3& n : {glm::dvec3(0, 1, 0), {0.6, 0, 0.8}, {0.48, -0.6, 0.64}}) {
+        long double exact = 0;
+        for (size_t i = 0; i < kCount; i++) {
+            const glm::dvec3& d = light.directions[i];
+            exact += static_cast<long double>(std::max(0.0, n.x * d.x + (n.y * d.y + n.z * d.z))) *
+                     light.flux[i].x;
+        }
+        const auto found = lighting.environmentIrradiance({T(n.x), T(n.y), T(n.z)});
+        CHECK(std::abs(numberLane(found.x, 0) / static_cast<double>(exact) - 1) <= bound);
+    }
+}
+
+// 2^k times the light gives 2^k times the irradiance, whether of texels or of harmonics; nothing is too dark.
+TEST_CASE_TEMPLATE("TheIrradianceOfScaledLightIsScaledToTheBit", T, float, double, Lanes<float, 4>) {
+    const glm::dvec3 n(0.48, -0.6, 0.64);
+    const auto irradianceOf = [&](const EnvironmentLight& light) {
+        EnvironmentLighting<T> lighting(light, {});
+        const auto e = lighting.environmentIrradiance({T(n.x), T(n.y), T(n.z)});
+        return glm::dvec3(numberLane(e.x, 0), numberLane(e.y, 0), numberLane(e.z, 0));
+    };
+    const EnvironmentLight texels = manyTexels(999, 0.01);
+    EnvironmentLight harmonics;
+    harmonics.kind = EnvironmentLight::Kind::harmonics;
+    harmonics.harmonics = SphericalHarmonics(2);
+    for (size_t i = 0; i < 9; i++)
+        harmonics.harmonics.coefficients[i] = glm::dvec3(3, 2, 1) / (1.0 + 2 * static_cast<double>(i));
+    for (const int k : {-110, -60, -40, 40, 100}) {
+        CAPTURE(k);
+        const double scale = std::ldexp(1.0, k);
+        EnvironmentLight scaled = texels;
+        for (glm::dvec3& flux : scaled.flux) flux *= scale;
+        CHECK(irradianceOf(scaled) == scale * irradianceOf(texels));
+        scaled = harmonics;
+        for (glm::dvec3& c : scaled.harmonics.coefficients) c *= scale;
+        CHECK(irradianceOf(scaled) == scale * irradianceOf(harmonics));
+    }
+    CHECK(irradianceOf(texels).x > 0);
+    CHECK(irradianceOf(harmonics).z > 0);
+}
+
 TEST_CASE("OccludedSurroundingsLightAlongTheBentNormal") {
     EnvironmentLight light;
     light.kind = EnvironmentLight::Kind::texels;

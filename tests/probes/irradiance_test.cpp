@@ -188,6 +188,40 @@ TEST_CASE("ExtremeProbesHaveFiniteIrradiance") {
           1e-14);
 }
 
+// Radiance of 2^k times a probe's, inside the finite numbers of the arithmetic, gives 2^k times its light.
+TEST_CASE("LightOfScaledRadianceIsScaledToTheBit") {
+    const std::vector<glm::dvec3> normals = someNormals();
+    for (const ProbeShape& shape : {ProbeShape{Mapping::latLong, 37, 19}, {Mapping::cube, 9, 9}}) {
+        const Probe probe = randomProbe(shape, 8);
+        for (const auto& [arithmetic, k] : {std::pair{Arithmetic::fp32, -100},
+                                            {Arithmetic::fp32, -60},
+                                            {Arithmetic::fp32, 100},
+                                            {Arithmetic::fp64, -100},
+                                            {Arithmetic::fp64, 120},
+                                            {Arithmetic::truth, -60},
+                                            {Arithmetic::fp24R300, -40},
+                                            {Arithmetic::fp16, 3}}) {
+            CAPTURE(arithmeticName(arithmetic));
+            CAPTURE(k);
+            Probe scaled = probe;
+            for (Image<float>& layer : scaled.radiance)
+                for (int c = 0; c < 3; c++)
+                    for (float& v : layer.plane(c)) v = std::ldexp(v, k);
+            const double scale = std::ldexp(1.0, k);
+            const std::vector<glm::dvec3> before = irradianceAt(probe, normals, arithmetic),
+                                          after = irradianceAt(scaled, normals, arithmetic);
+            for (size_t i = 0; i < normals.size(); i++) CHECK(after[i] == scale * before[i]);
+            const SphericalHarmonics f = projectHarmonics(probe, 4, arithmetic),
+                                     g = projectHarmonics(scaled, 4, arithmetic);
+            for (size_t i = 0; i < f.coefficients.size(); i++)
+                CHECK(g.coefficients[i] == scale * f.coefficients[i]);
+            const std::vector<glm::dvec3> smooth = evaluateHarmonics(f, normals, Arithmetic::fp32),
+                                          scaledSmooth = evaluateHarmonics(g, normals, Arithmetic::fp32);
+            for (size_t i = 0; i < normals.size(); i++) CHECK(scaledSmooth[i] == scale * smooth[i]);
+        }
+    }
+}
+
 // The lights of texels are what the sum adds: one texel at a time it is their product with the cosine.
 TEST_CASE("TexelLightsAreWhatTheSumAdds") {
     const ProbeShape shape{Mapping::cube, 3, 3};

@@ -33,8 +33,8 @@ DrawState biased(const DepthBias& bias) {
 }
 
 uint32_t storedAt(int x, int y, const std::vector<ClipVertex>& vertices, const DepthBias& bias,
-                  DepthFormat format, RasterReal real) {
-    return drawTriangles(kViewport, vertices, biased(bias), {1, 8, format, DepthRounding::exact, real})
+                  DepthFormat format, RasterReal real, BiasUnit unit = BiasUnit::step) {
+    return drawTriangles(kViewport, vertices, biased(bias), {1, 8, format, DepthRounding::exact, real, unit})
         .depth.at(x, y);
 }
 
@@ -47,15 +47,19 @@ TEST_CASE("DepthBiasIsInUnitsOfTheFormat") {
             const auto stored = [&](DepthFormat format, double constant, double clamp = 0) {
                 return static_cast<int64_t>(storedAt(5, 6, flat, {constant, 0, clamp}, format, real));
             };
-            // UNORM: 2^-n per unit, where a step of the format is 1 / (2^n - 1).
+            // UNORM: a step of the format, or of the driver's 2^-(n - 1), which is nearly two.
             for (const auto& [format, levels] :
                  {std::pair{DepthFormat::d16, 65535.0}, {DepthFormat::d24, 16777215.0}})
                 for (double k : {-1000.0, -64.0, -1.0, 1.0, 2.0, 64.0, 1000.0}) {
-                    const double expected = std::floor((depth + k / (levels + 1)) * levels + 0.5);
-                    CHECK(static_cast<double>(stored(format, k)) == expected);
-                    // one less only where the unbiased depth is a tie
-                    CHECK(stored(format, k) - stored(format, 0) ==
-                          static_cast<int64_t>(k) - (depth == 0.5 && k > 0));
+                    // A depth between two steps may round to either, with a step added in the raster arithmetic.
+                    const auto steps = [&](BiasUnit unit) {
+                        return static_cast<double>(
+                            int64_t{storedAt(5, 6, flat, {k, 0, 0}, format, real, unit)} - stored(format, 0));
+                    };
+                    CHECK(std::abs(steps(BiasUnit::step) - k) <= (depth == 0.5 ? 1 : 0));
+                    const double exact = (depth + k * 2 / (levels + 1)) * levels;
+                    const double found = steps(BiasUnit::driver) + static_cast<double>(stored(format, 0));
+                    CHECK(std::abs(found - exact) <= 0.5 + 0x1p-20);
                 }
             // D32F: units in the last place of the plane's depth.
             for (int k : {-7, -1, 1, 2, 100}) {
@@ -65,10 +69,11 @@ TEST_CASE("DepthBiasIsInUnitsOfTheFormat") {
                     CHECK(stored(DepthFormat::d32f, k) - stored(DepthFormat::d32f, 0) == k);
             }
             // The limit holds from above or from below, by its sign.
-            CHECK(stored(DepthFormat::d16, 100, 10 * 0x1p-16) == stored(DepthFormat::d16, 10));
-            CHECK(stored(DepthFormat::d16, -100, -10 * 0x1p-16) == stored(DepthFormat::d16, -10));
-            CHECK(stored(DepthFormat::d16, -100, 10 * 0x1p-16) == stored(DepthFormat::d16, -100));
-            CHECK(stored(DepthFormat::d16, 100, -10 * 0x1p-16) == stored(DepthFormat::d16, 100));
+            constexpr double kTenSteps = 10 / 65535.0;
+            CHECK(stored(DepthFormat::d16, 100, kTenSteps) == stored(DepthFormat::d16, 10));
+            CHECK(stored(DepthFormat::d16, -100, -kTenSteps) == stored(DepthFormat::d16, -10));
+            CHECK(stored(DepthFormat::d16, -100, kTenSteps) == stored(DepthFormat::d16, -100));
+            CHECK(stored(DepthFormat::d16, 100, -kTenSteps) == stored(DepthFormat::d16, 100));
             // The sum is clamped to [0, 1].
             CHECK(stored(DepthFormat::d24, 1e9) == farthestDepth(DepthFormat::d24));
             CHECK(stored(DepthFormat::d32f, -1e9) == 0);

@@ -45,7 +45,7 @@ bool sameChoices(const Profile& a, const Profile& b) {
     return a.fragment == b.fragment && a.vertex == b.vertex && a.depth == b.depth &&
            a.depthRounding == b.depthRounding && a.subpixelBits == b.subpixelBits &&
            a.textureFractionBits == b.textureFractionBits && a.textureFilter == b.textureFilter &&
-           a.environment == b.environment;
+           a.environment == b.environment && a.volumeStencil == b.volumeStencil && a.biasUnit == b.biasUnit;
 }
 
 }  // namespace
@@ -60,6 +60,8 @@ subpixel_bits = 5
 texture_fraction_bits = 3
 texture_filter = "nearest"
 environment = "fp16"
+volume_stencil = "exact"
+depth_bias_unit = "driver"
 [fragment]
 significand_bits = 12
 min_exponent = -20
@@ -89,6 +91,9 @@ seed = 99
     CHECK(profile.textureFractionBits == 3);
     CHECK(profile.textureFilter == Filter::nearest);
     CHECK(profile.environment == Arithmetic::fp16);
+    CHECK(profile.volumeStencil == VolumeStencil::exact);
+    CHECK(profile.biasUnit == BiasUnit::driver);
+    CHECK(composed("volume_stencil = '8-bit'").volumeStencil == VolumeStencil::bits8);
     CHECK(composed("texture_fraction_bits = 'exact'\nbase = 'd3d11'").textureFractionBits == kExactFraction);
 }
 

@@ -290,7 +290,7 @@ TEST_CASE("ShadowsOfTheEnvironmentAreReadAsWritten") {
     const Environment plain = read("shadow = 'map'\nshadow_size = 128\n");
     CHECK(plain.shadow.method == ShadowMethod::map);
     CHECK(plain.shadow.map.size == 128);
-    CHECK(plain.shadowLights == 4);
+    CHECK(plain.shadowLights == 256);
     CHECK(plain.shadowShare == 0);
     CHECK(read("shadow = 'volume'\nshadow_lights = 9\n").shadowLights == 9);
     const Environment planar = read("shadow = 'planar'\nshadow_light_deg = 2\nshadow_share = 0.125\n");

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "numeric/random.h"
+#include "numeric/transform.h"
 #include "shadows/ambient_occlusion.h"
 #include "shadows/flat_mesh.h"
 #include "tests/support/box_scene.h"
@@ -114,21 +115,28 @@ TEST_CASE("OnlyFlatThingsWithNothingInFrontOfThemAreAllOpen") {
             CHECK(of.open == 1);
 }
 
-TEST_CASE("AMeshIsFlatToTheErrorOfItsVertices") {
-    const auto planeWith = [](float lifted_m, float away_m = 0) {
+TEST_CASE("AMeshIsFlatToItsOwnSizeWhereverItIs") {
+    const auto planeWith = [](float lifted_m, double scale, double away_m) {
         SurfaceMesh mesh = kFloor;
-        for (auto& p : mesh.positions) p.x += away_m;
         mesh.positions[3].y = lifted_m;
-        return planeOf(Placed({mesh}).placed[0]);
+        SurfaceScene scene;
+        addObject(scene, std::move(mesh), lambertian(0.5));
+        scene.instances[0].toWorld = multiplied(translation(glm::dvec3(away_m)), scaling(glm::dvec3(scale)));
+        return planeOf(placeMeshes(scene, RasterReal::fp32, 1)[0]);
     };
-    const MeshPlane plane = planeWith(0);
+    const MeshPlane plane = planeWith(0, 1, 0);
     CHECK(plane.exists);
     CHECK(std::abs(plane.normal.y) == 1);
-    CHECK(plane.tolerance_m == 2 * kFlatness);
-    CHECK(planeWith(0x1p-20f).exists);
-    CHECK_FALSE(planeWith(0x1p-16f).exists);
-    CHECK(planeWith(0x1p-16f, 1000).exists);
-    CHECK_FALSE(planeWith(std::numeric_limits<float>::infinity()).exists);
+    CHECK(plane.tolerance_m == doctest::Approx(4 * std::sqrt(2.0) * kFlatness));
+    for (const double scale : {1e-6, 1.0, 1e6})
+        for (const double away_m : {0.0, 1e3, 1e6, 1e9}) {
+            CAPTURE(scale);
+            CAPTURE(away_m);
+            if (away_m > 1e6 * scale) continue;
+            CHECK(planeWith(0x1p-20f, scale, away_m).exists);
+            CHECK_FALSE(planeWith(0x1p-16f, scale, away_m).exists);
+        }
+    CHECK_FALSE(planeWith(std::numeric_limits<float>::infinity(), 1, 0).exists);
     SurfaceMesh line = kFloor;
     for (auto& p : line.positions) p.z = 0;
     CHECK_FALSE(planeOf(Placed({line}).placed[0]).exists);

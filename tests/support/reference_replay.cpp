@@ -24,9 +24,11 @@ std::array<Real, 3> vertexDepths(const Piece& piece) {
 
 // Rule 7 without the slope.
 template <class Real>
-Real constantBias(const DepthBias& bias, DepthFormat format, const Piece& piece) {
-    double u = format == DepthFormat::d16 ? 0x1p-16 : 0x1p-24;
-    if (format == DepthFormat::d32f) {
+Real constantBias(const DepthBias& bias, const RenderTargetFormat& format, const Piece& piece) {
+    const int bits = format.depth == DepthFormat::d16 ? 16 : 24;
+    double u =
+        format.biasUnit == BiasUnit::step ? 1 / (std::ldexp(1.0, bits) - 1) : std::ldexp(1.0, 1 - bits);
+    if (format.depth == DepthFormat::d32f) {
         double largest = 0x1p-70;
         for (Real z : vertexDepths<Real>(piece))
             largest = std::max(largest, std::abs(static_cast<double>(z)));
@@ -90,7 +92,7 @@ void drawPolygon(Target& target, const Viewport& viewport, const DrawState& stat
     Wide left = viewport.x + viewport.width, right = viewport.x, top = viewport.y + viewport.height,
          bottom = viewport.y;
     for (const Piece& piece : polygon.pieces) {
-        bias.push_back(constantBias<Real>(state.bias, target.format.depth, piece));
+        bias.push_back(constantBias<Real>(state.bias, target.format, piece));
         for (size_t i = 0; i < 3; i++) {  // a box that is a pixel too large on each side
             left = std::min(left, piece.x_subpx[i] / pixel - 2);
             right = std::max(right, piece.x_subpx[i] / pixel + 2);
