@@ -154,6 +154,15 @@ TEST_CASE("LightsOfAnEnvironmentCastShadows") {
     const Frame planar = withMethod(scene, shadow, ShadowMethod::planar);
     CHECK(sumOf(planar) < sumOf(none));
     CHECK(sumOf(planar) > sumOf(volumes));
+    // All of them cast where no number is asked for, and it is said how much of the energy casts.
+    const auto saidOf = [&](int lights) {
+        scene.environment.shadowLights = lights;
+        shadow.method = ShadowMethod::volume;
+        return renderScene(scene, {}).plan.find("environment light")->reason;
+    };
+    CHECK(saidOf(Environment{}.shadowLights)
+              .ends_with("; 16 of its 16 lights may cast shadows, with 100 % of the energy"));
+    CHECK(saidOf(3).find("; 3 of its 16 lights may cast shadows, with ") != std::string::npos);
     // By their part of the energy: 16 lights of about the same.
     scene.environment.shadowShare = 0.5;
     CHECK(sameBits(withMethod(scene, shadow, ShadowMethod::volume), none));
