@@ -27,7 +27,7 @@ class EnvironmentIrradiance {
                           const std::vector<size_t>& lights, const SamplerSettings& sampler,
                           const std::vector<bool>& casts)
         : everywhere_(environment, sampler) {
-        const auto constant = [this](const glm::dvec3& v) { return vec3(T(v.x), T(v.y), T(v.z)); };
+        const auto constant = [](const glm::dvec3& v) { return vec3(T(v.x), T(v.y), T(v.z)); };
         for (const size_t l : lights) {
             const int shadowRow = !casts.empty() && casts[l] ? static_cast<int>(l) : -1;
             lights_.push_back(
