@@ -56,10 +56,7 @@ class EnvironmentLighting {
 
     // Directions and scaled flux, the last run filled up with black texels.
     void setTexels(const EnvironmentLight& light) {
-        double total = 0;
-        for (const glm::dvec3& flux : light.flux)
-            total += std::max(std::abs(flux.x), std::max(std::abs(flux.y), std::abs(flux.z)));
-        const int exponent = sumExponent<T>(total);
+        const int exponent = sumExponent<T>(light.flux);
         texelUnscale_ = PowerOfTwoHalves<T>(-exponent);
         const size_t runs = (light.flux.size() + kIrradianceRun - 1) / kIrradianceRun;
         texels_.assign(std::max(runs, size_t{1}) * kIrradianceRun * kTexelNumbers, Kept(0.0));

@@ -1,22 +1,23 @@
 // What a texel of a probe adds to sums over directions, in every arithmetic. The text is
 // probes/kernels/flux.glsl.
 //
-// The flux of a texel is its radiance times its solid angle. Sums are made of scaled flux: all of it together is as large
-// as leaves room for sums (FluxScale). The scale is a power of two and is taken out again, exactly, where a sum leaves its
-// pass. So neither the irradiance nor a coefficient of spherical harmonics overflows, whatever its partial sums, a probe
-// that is 2^n times as bright gives 2^n times the light to the bit, and nothing is too dark to count. No radiance is beyond the largest finite number of the arithmetic: what is,
-// infinities included, counts as that number; NaN stays. Texels without a solid angle and those that are not valid count
-// as black.
+// The flux of a texel is its radiance times its solid angle. Sums are made of scaled flux: all of it together is as
+// large as leaves room for sums (FluxScale). The scale is a power of two and is taken out again, exactly, where a sum
+// leaves its pass. So neither the irradiance nor a coefficient of spherical harmonics overflows, whatever its partial
+// sums, a probe that is 2^n times as bright gives 2^n times the light to the bit, and nothing is too dark to count.
+// Radiance beyond the largest finite number of the arithmetic, infinities included, counts as that number; NaN stays.
+// Texels without a solid angle and those that are not valid count as black.
 //
 // In fp32 scaled fluxes, cosines, components of directions and values of harmonics below kSmallestFloatTerm in
-// magnitude count as 0, so that no intermediate is subnormal: that is 2^-170 of all flux. Other arithmetics need no such floor: the formats below fp32's range flush or keep subnormals by a
-// rule of their own (numeric/format.h).
+// magnitude count as 0, so that no intermediate is subnormal: of flux that is 2^-170 of all. Other arithmetics need no
+// such floor: the formats below fp32's range flush or keep subnormals by a rule of their own (numeric/format.h).
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
 #include <limits>
 #include <type_traits>
 #include <vector>
@@ -72,6 +73,14 @@ int sumExponent(double total) {
     const int top = std::ilogb(TermLimits<T>::largest()),
               halves = 2 * std::min(top, -TermLimits<T>::minExponent());
     return std::clamp(top - kRoom - std::ilogb(total), -halves, halves);
+}
+// The same for vectors, by the sum of their largest components.
+template <class T>
+int sumExponent(const std::vector<glm::dvec3>& terms) {
+    double total = 0;
+    for (const glm::dvec3& a : terms)
+        total += std::max(std::abs(a.x), std::max(std::abs(a.y), std::abs(a.z)));
+    return sumExponent<T>(total);
 }
 template <class T>
 struct PowerOfTwoHalves {

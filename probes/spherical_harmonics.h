@@ -88,10 +88,7 @@ struct HarmonicsKernel {
         }
     }
     void setCoefficients(const SphericalHarmonics& harmonics) {
-        double total = 0;
-        for (const glm::dvec3& c : harmonics.coefficients)
-            total += std::max(std::abs(c.x), std::max(std::abs(c.y), std::abs(c.z)));
-        const int exponent = sumExponent<T>(total);
+        const int exponent = sumExponent<T>(harmonics.coefficients);
         unscale_ = PowerOfTwoHalves<T>(-exponent);
         for (size_t i = 0; i < harmonics.coefficients.size(); i++) {
             const auto scaled = [&](int c) { return T(std::ldexp(harmonics.coefficients[i][c], exponent)); };
