@@ -31,7 +31,7 @@ double expOf(double x) {
     const double z = high - n * kLn2Low;
     const double zLow = (high - z) - n * kLn2Low;
     WideTexts<double> texts;
-    return texts.joinNumber({texts.exponentialOfSum(z, zLow), n}, kLowestExponent<double>);
+    return texts.joinNumber({texts.exponentialOfSum(z, zLow), n}, kLowestExponent);
 }
 
 }  // namespace etalon

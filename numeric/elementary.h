@@ -1,5 +1,5 @@
-// Elementary functions from + - * /, comparisons and the bits of doubles: the same bits on every machine,
-// compiler and number of lanes. Code that computes calls these and never those of <cmath>.
+// Elementary functions from + - * /, comparisons and the bits of numbers: the same bits on every machine, compiler and
+// number of lanes. Code that computes calls these and never those of <cmath>.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +22,7 @@ namespace etalon {
 //   powOf(x, 0) = 1 for every x >= 0; powOf(0, y) is 0 for y > 0 and infinity for y < 0; powOf(inf, y) is
 //   infinity for y > 0 and 0 for y < 0; powOf(x, +-inf) is the limit, and 1 for x = 1. Overflow gives
 //   infinity. NaN if x < 0 or an argument is NaN.
-// Both for float, double, Rounded<F, D>, Lanes of float and double, and, with numeric/truth_elementary.h,
+// Both for float, double, Emulated, Rounded<F, D>, Lanes of float and double, and, with numeric/truth_elementary.h,
 // Truth.
 //
 // Small numbers: arguments and results below the smallest normal number of the type in magnitude (float
@@ -30,8 +30,9 @@ namespace etalon {
 // has the smallest positive number of F in that place. In double, atan2Of is also 0 where the exponent of y
 // is more than 900 below that of x > 0.
 //
-// Errors: in double kAtan2ErrorUlp and kPowErrorUlp. In float and Rounded<F, D> the result of a computation
-// in double with a relative error below 2^-43 is rounded once: kFloatErrorUlp with nearest-even.
+// Errors: in double kAtan2ErrorUlp and kPowErrorUlp. In float kFloatErrorUlp: it is computed over sums of two floats, so
+// that processors without double have it. In other formats the result of a computation in double with a relative error
+// below 2^-43 is rounded once: kOtherErrorUlp with nearest-even. A format that roundsAsFloat has the bits of float.
 template <class N>
 N atan2Of(N y, N x) {
     return ElementaryFunctions<N>::atan2Of(y, x);
@@ -58,7 +59,8 @@ inline constexpr double kMaxAngle = 0x1p20;
 // MPFR.
 inline constexpr double kAtan2ErrorUlp = 0.70;
 inline constexpr double kPowErrorUlp = 0.70;
-inline constexpr double kFloatErrorUlp = 0.500001;
+inline constexpr double kFloatErrorUlp = 0.51;
+inline constexpr double kOtherErrorUlp = 0.500001;
 inline constexpr double kSinErrorUlp = 0.85;
 inline constexpr double kCosErrorUlp = 0.85;
 inline constexpr double kExpErrorUlp = 0.65;
@@ -100,6 +102,33 @@ struct WideTexts {
     // e + 1023.
     static constexpr int64_t kWholeNumberBits = 0x4330000000000000;
     static constexpr double kWholeNumberOffset = 0x1p52 + 1023.0;
+};
+
+// The kernel texts over pairs of floats, for T = float or Lanes<float, N>.
+template <class T>
+struct FloatTexts {
+#include "numeric/kernel_scope.inc"
+
+    static integer bitsOf(real a) { return __builtin_bit_cast(integer, a); }
+    static real realFromBits(integer bits) { return __builtin_bit_cast(real, bits); }
+// The entry of a list of 16 or 32 numbers at each lane's index.
+#define table16(index, ...)                                   \
+    [](integer at) {                                          \
+        static constexpr float kEntries[16] = {__VA_ARGS__};  \
+        return entriesOf(kEntries, at);                       \
+    }(index)
+#define table32(index, ...)                                   \
+    [](integer at) {                                          \
+        static constexpr float kEntries[32] = {__VA_ARGS__};  \
+        return entriesOf(kEntries, at);                       \
+    }(index)
+#include "numeric/kernels/pair.glsl"
+// The texts that need it.
+#include "numeric/kernels/pair_atan2.glsl"
+#include "numeric/kernels/pair_pow.glsl"
+#include "numeric/kernels/pair_sine.glsl"
+#undef table16
+#undef table32
 };
 
 // f(a, b) per lane, through one register of doubles at a time; f takes Lanes<double, M> and returns them.
@@ -187,42 +216,111 @@ D cosInDouble(D angle_rad, double lowest) {
         });
 }
 
-// Exponent of the smallest normal number, and whether results need more than double.
-template <std::floating_point S>
-inline constexpr double kLowestExponent = sizeof(S) > sizeof(float) ? -1022.0 : -126.0;
-template <std::floating_point S>
-inline constexpr bool kNeedsExtended = sizeof(S) > sizeof(float);
+// Exponent of the smallest normal double.
+inline constexpr double kLowestExponent = -1022.0;
+
+// For lanes of which one is special. Rarely called: kept out of the code of loops.
+template <int N>
+[[gnu::noinline]] Lanes<float, N> anyPower(Lanes<float, N> x, Lanes<float, N> y) {
+    return FloatTexts<Lanes<float, N>>{}.pairPower(x, y);
+}
 
 // What the elementary functions are for one number type. A class template, so that class templates that
 // include numeric/kernel_scope.inc find it for number types that are declared after them.
-template <std::floating_point S>
-struct ElementaryFunctions<S> {
-    static S atan2Of(S y, S x) {
-        return static_cast<S>(atan2InDouble(y, x, kLowestExponent<S>, kNeedsExtended<S>));
-    }
-    static S powOf(S x, S y) {
-        return static_cast<S>(powInDouble(x, y, kLowestExponent<S>, kNeedsExtended<S>));
-    }
-    static S sinOf(S x) { return static_cast<S>(sinInDouble(static_cast<double>(x), kLowestExponent<S>)); }
-    static S cosOf(S x) { return static_cast<S>(cosInDouble(static_cast<double>(x), kLowestExponent<S>)); }
+template <>
+struct ElementaryFunctions<double> {
+    static double atan2Of(double y, double x) { return atan2InDouble(y, x, kLowestExponent, true); }
+    static double powOf(double x, double y) { return powInDouble(x, y, kLowestExponent, true); }
+    static double sinOf(double x) { return sinInDouble(x, kLowestExponent); }
+    static double cosOf(double x) { return cosInDouble(x, kLowestExponent); }
 };
-template <class S, int N>
-struct ElementaryFunctions<Lanes<S, N>> {
-    using L = Lanes<S, N>;
-    static L atan2Of(L y, L x) { return atan2InDouble(y, x, kLowestExponent<S>, kNeedsExtended<S>); }
-    static L powOf(L x, L y) { return powInDouble(x, y, kLowestExponent<S>, kNeedsExtended<S>); }
-    static L sinOf(L x) { return sinInDouble(x, kLowestExponent<S>); }
-    static L cosOf(L x) { return cosInDouble(x, kLowestExponent<S>); }
+template <int N>
+struct ElementaryFunctions<Lanes<double, N>> {
+    using L = Lanes<double, N>;
+    static L atan2Of(L y, L x) { return atan2InDouble(y, x, kLowestExponent, true); }
+    static L powOf(L x, L y) { return powInDouble(x, y, kLowestExponent, true); }
+    static L sinOf(L x) { return sinInDouble(x, kLowestExponent); }
+    static L cosOf(L x) { return cosInDouble(x, kLowestExponent); }
 };
+template <>
+struct ElementaryFunctions<float> {
+    using Texts = FloatTexts<float>;
+    static float atan2Of(float y, float x) { return Texts{}.pairAtan2(y, x); }
+    static float powOf(float x, float y) { return Texts{}.pairPower(x, y); }
+    static float sinOf(float x) { return Texts{}.pairSine(x); }
+    static float cosOf(float x) { return Texts{}.pairCosine(x); }
+};
+template <int N>
+struct ElementaryFunctions<Lanes<float, N>> {
+    using L = Lanes<float, N>;
+    using Texts = FloatTexts<L>;
+    static L atan2Of(L y, L x) { return Texts{}.pairAtan2(y, x); }
+    static L powOf(L x, L y) {
+        const auto isFraction = x >= L(0.0) && x <= L(1.0) && y >= L(0x1p-126) && y <= L(0x1p70);
+        if (anyOf(!isFraction)) return anyPower(x, y);
+        return Texts{}.pairPowerOfFraction(x, y);
+    }
+    static L sinOf(L x) { return Texts{}.pairSine(x); }
+    static L cosOf(L x) { return Texts{}.pairCosine(x); }
+};
+// A function of the numbers a and b of a format that roundsAsFloat, over D = double or lanes of it: that of float,
+// ofFloats, but ofDoubles where a subnormal number that the format keeps is an argument or the result, which are 0 in float.
+template <class D, class OfFloats, class OfDoubles>
+D inFloat(D a, D b, bool keepsSubnormals, OfFloats&& ofFloats, OfDoubles&& ofDoubles) {
+    const auto wasFloat = [](D x) {
+        if constexpr (std::same_as<D, double>)
+            return static_cast<float>(x);
+        else
+            return convertLanes<float>(x);
+    };
+    const auto widened = [](auto x) {
+        if constexpr (std::same_as<D, double>)
+            return static_cast<double>(x);
+        else
+            return convertLanes<double>(x);
+    };
+    const D value = widened(ofFloats(wasFloat(a), wasFloat(b)));
+    if (!keepsSubnormals) return value;
+    const D zero(0.0), smallest(0x1p-126);
+    const auto isSubnormal = [&](D x) { return x < smallest && x > -smallest && x != zero; };
+    const auto counts = isSubnormal(a) || isSubnormal(b) || (value < smallest && value > -smallest);
+    return anyOf(counts) ? select(counts, ofDoubles(a, b), value) : value;
+}
+
 template <Format F, class D>
 struct ElementaryFunctions<Rounded<F, D>> {
     using R = Rounded<F, D>;
-    static constexpr double kLowest =
-        F.minExponent - (F.subnormals == Subnormals::keep ? F.significandBits - 1 : 0);
-    static R atan2Of(R y, R x) { return R(atan2InDouble(y.v, x.v, kLowest, false)); }
-    static R powOf(R x, R y) { return R(powInDouble(x.v, y.v, kLowest, false)); }
-    static R sinOf(R x) { return R(sinInDouble(x.v, kLowest)); }
-    static R cosOf(R x) { return R(cosInDouble(x.v, kLowest)); }
+    static constexpr bool kKeeps = F.subnormals == Subnormals::keep;
+    static constexpr double kLowest = F.minExponent - (kKeeps ? F.significandBits - 1 : 0);
+    static R atan2Of(R y, R x) {
+        return of(
+            y, x, [](auto a, auto b) { return ElementaryFunctions<decltype(a)>::atan2Of(a, b); },
+            [](D a, D b) { return atan2InDouble(a, b, kLowest, false); });
+    }
+    static R powOf(R x, R y) {
+        return of(
+            x, y, [](auto a, auto b) { return ElementaryFunctions<decltype(a)>::powOf(a, b); },
+            [](D a, D b) { return powInDouble(a, b, kLowest, false); });
+    }
+    static R sinOf(R x) {
+        return of(
+            x, x, [](auto a, auto) { return ElementaryFunctions<decltype(a)>::sinOf(a); },
+            [](D a, D) { return sinInDouble(a, kLowest); });
+    }
+    static R cosOf(R x) {
+        return of(
+            x, x, [](auto a, auto) { return ElementaryFunctions<decltype(a)>::cosOf(a); },
+            [](D a, D) { return cosInDouble(a, kLowest); });
+    }
+
+  private:
+    template <class OfFloats, class OfDoubles>
+    static R of(R a, R b, OfFloats&& ofFloats, OfDoubles&& ofDoubles) {
+        if constexpr (roundsAsFloat(F))
+            return R(inFloat(a.v, b.v, kKeeps, ofFloats, ofDoubles));
+        else
+            return R(ofDoubles(a.v, b.v));
+    }
 };
 
 }  // namespace etalon

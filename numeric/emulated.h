@@ -369,30 +369,45 @@ struct KeptFormat<Emulated<D>> {
     EmulatedScope enter() const { return EmulatedScope(format); }
 };
 
-// Computed in double with a relative error below 2^-43 and rounded once (numeric/elementary.h), but for powers in steps
-// (Power).
+// Computed in double with a relative error below 2^-43 and rounded once, or in float for a format that rounds as float
+// (numeric/elementary.h), but for powers in steps (Power).
 template <class D>
 struct ElementaryFunctions<Emulated<D>> {
     using R = Emulated<D>;
     static R atan2Of(R y, R x) {
-        return of(atan2InDouble(y.v, x.v, emulatedFormat.lowestExponent, false), EmulatedOperation::angle, y,
-                  x);
+        return of(
+            EmulatedOperation::angle, y, x,
+            [](auto a, auto b) { return ElementaryFunctions<decltype(a)>::atan2Of(a, b); },
+            [](D a, D b) { return atan2InDouble(a, b, emulatedFormat.lowestExponent, false); });
     }
     static R powOf(R x, R y) {
         if (emulatedFormat.power == Power::exp2log2)
             return R::ofRepresentable(EmulatedOperations<D>::powerInSteps(x.v, y.v));
-        return of(powInDouble(x.v, y.v, emulatedFormat.lowestExponent, false), EmulatedOperation::power, x,
-                  y);
+        return of(
+            EmulatedOperation::power, x, y,
+            [](auto a, auto b) { return ElementaryFunctions<decltype(a)>::powOf(a, b); },
+            [](D a, D b) { return powInDouble(a, b, emulatedFormat.lowestExponent, false); });
     }
     static R sinOf(R x) {
-        return of(sinInDouble(x.v, emulatedFormat.lowestExponent), EmulatedOperation::sine, x, R(0.0));
+        return of(
+            EmulatedOperation::sine, x, R(0.0),
+            [](auto a, auto) { return ElementaryFunctions<decltype(a)>::sinOf(a); },
+            [](D a, D) { return sinInDouble(a, emulatedFormat.lowestExponent); });
     }
     static R cosOf(R x) {
-        return of(cosInDouble(x.v, emulatedFormat.lowestExponent), EmulatedOperation::cosine, x, R(0.0));
+        return of(
+            EmulatedOperation::cosine, x, R(0.0),
+            [](auto a, auto) { return ElementaryFunctions<decltype(a)>::cosOf(a); },
+            [](D a, D) { return cosInDouble(a, emulatedFormat.lowestExponent); });
     }
 
   private:
-    static R of(D value, EmulatedOperation operation, R a, R b) {
+    template <class OfFloats, class OfDoubles>
+    [[gnu::noinline]] static R of(EmulatedOperation operation, R a, R b, OfFloats&& ofFloats,
+                                  OfDoubles&& ofDoubles) {
+        const D value = emulatedFormat.path == EmulatedFormat::Path::binary32
+                            ? inFloat(a.v, b.v, emulatedFormat.flushBelow == 0, ofFloats, ofDoubles)
+                            : ofDoubles(a.v, b.v);
         return R::ofRepresentable(EmulatedOperations<D>::rounded(value, operation, a.v, b.v));
     }
 };

@@ -86,13 +86,8 @@ struct EmulatedFormat {
                                                          : std::numeric_limits<double>::infinity();
     }
     static constexpr Path pathOf(Format f) {
-        if (f.rounding == Rounding::nearestEven) {
-            const bool hasRangeOfFloat = f.minExponent == kFp32.minExponent &&
-                                         f.maxExponent == kFp32.maxExponent &&
-                                         f.overflow == Overflow::infinity;
-            return f.significandBits == kFp32.significandBits && hasRangeOfFloat ? Path::binary32
-                                                                                 : Path::nearestEven;
-        }
+        if (roundsAsFloat(f)) return Path::binary32;
+        if (f.rounding == Rounding::nearestEven) return Path::nearestEven;
         return f.rounding == Rounding::towardZero && f.subnormals == Subnormals::flush ? Path::truncated
                                                                                        : Path::general;
     }

@@ -94,6 +94,12 @@ constexpr double epsilonOf(Format f) { return powerOfTwo(1 - f.significandBits);
 inline constexpr int kMaxSignificandBits = 24;
 inline constexpr int kMaxFormatExponent = 400;
 
+// True if operations that round to the format are those of the processor's float, subnormals apart.
+constexpr bool roundsAsFloat(Format f) {
+    return f.significandBits == 24 && f.minExponent == -126 && f.maxExponent == 127 &&
+           f.rounding == Rounding::nearestEven && f.overflow == Overflow::infinity;
+}
+
 // True if the format can be emulated (numeric/emulated.h): 2 to 24 significand bits, exponents within +-400, 1 inside the
 // normal range, and every number below the first whole-number binade rounds down to a finite number (floorOf
 // is exact).

@@ -85,6 +85,8 @@ struct Lanes {
     // Bits; S is an integer type.
     friend Lanes operator&(Lanes a, Lanes b) { return Lanes(a.v & b.v); }
     friend Lanes operator|(Lanes a, Lanes b) { return Lanes(a.v | b.v); }
+    friend Lanes operator<<(Lanes a, int bits) { return Lanes(a.v << bits); }
+    friend Lanes operator>>(Lanes a, int bits) { return Lanes(a.v >> bits); }
 
     using M = Mask<S, N>;
     friend M operator<(Lanes a, Lanes b) { return M(a.v < b.v); }
@@ -228,6 +230,21 @@ template <class S, int N>
         }
         rows = next;
     }
+}
+// The entry of the table at each lane's index, which is inside it. Count is 16 or 32.
+template <size_t Count, int N>
+[[gnu::always_inline]] inline Lanes<float, N> entriesOf(const float (&table)[Count], Lanes<int32_t, N> index) {
+    using L = Lanes<float, N>;
+    if constexpr (requires { registers::entriesOf(table, index.v); })
+        return L(registers::entriesOf(table, index.v));
+    else if constexpr (N > kNativeLanes<float>)
+        return joinLanes(entriesOf(table, lowerLanes(index)), entriesOf(table, upperLanes(index)));
+    else
+        return L::generate([&](int i) { return table[index.v[i]]; });
+}
+template <size_t Count>
+float entriesOf(const float (&table)[Count], int32_t index) {
+    return table[index];
 }
 // The same mask for lanes of another scalar type.
 template <class To, class S, int N>

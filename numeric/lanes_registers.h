@@ -3,6 +3,7 @@
 // compiler's conversion does the same.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #if defined(__x86_64__)
@@ -108,6 +109,41 @@ ETALON_THROUGH_BINARY16(8, __m256, toBinary16, _mm256_cvtph_ps)
 #endif
 #if defined(__aarch64__)
 ETALON_THROUGH_BINARY16(4, float32x4_t, vcvt_f16_f32, vcvt_f32_f16)
+#endif
+
+// The entry of a table of 16 or 32 floats at each lane's index. Overloads for the vectors that the processor permutes.
+void entriesOf();
+#if defined(__AVX512F__)
+typedef float Floats16 __attribute__((vector_size(64)));
+typedef int32_t Indices16 __attribute__((vector_size(64)));
+template <size_t Count>
+[[gnu::always_inline]] inline Floats16 entriesOf(const float (&table)[Count], Indices16 index) {
+    const auto at = reinterpret_cast<__m512i>(index);
+    if constexpr (Count == 16)
+        return reinterpret_cast<Floats16>(_mm512_permutexvar_ps(at, _mm512_loadu_ps(table)));
+    else
+        return reinterpret_cast<Floats16>(
+            _mm512_permutex2var_ps(_mm512_loadu_ps(table), at, _mm512_loadu_ps(table + 16)));
+}
+#endif
+#if defined(__AVX2__)
+typedef float Floats8 __attribute__((vector_size(32)));
+typedef int32_t Indices8 __attribute__((vector_size(32)));
+template <size_t Count>
+[[gnu::always_inline]] inline Floats8 entriesOf(const float (&table)[Count], Indices8 index) {
+    const auto at = reinterpret_cast<__m256i>(index);
+    // Bit 3 or 4 of the index, as the sign that a blend reads.
+    const __m256 isOdd = _mm256_castsi256_ps(_mm256_slli_epi32(at, 31 - 3));
+    const auto pair = [&](size_t first) {
+        return _mm256_blendv_ps(_mm256_permutevar8x32_ps(_mm256_loadu_ps(table + first), at),
+                                _mm256_permutevar8x32_ps(_mm256_loadu_ps(table + first + 8), at), isOdd);
+    };
+    if constexpr (Count == 16)
+        return reinterpret_cast<Floats8>(pair(0));
+    else
+        return reinterpret_cast<Floats8>(
+            _mm256_blendv_ps(pair(0), pair(16), _mm256_castsi256_ps(_mm256_slli_epi32(at, 31 - 4))));
+}
 #endif
 
 #undef ETALON_THROUGH_BINARY16

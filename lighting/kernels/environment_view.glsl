@@ -1,7 +1,7 @@
 // The environment as it is seen: behind the scene and in mirrors.
 // needs: numeric/kernels/vector.glsl
-// needs: numeric/kernels/wide.glsl
-// needs: numeric/kernels/atan2.glsl
+// needs: numeric/kernels/pair.glsl
+// needs: numeric/kernels/pair_atan2.glsl
 // needs: raster/kernels/texture_scope.glsl
 // needs: raster/kernels/sampler.glsl
 // needs: raster/kernels/cube_face.glsl

@@ -1,7 +1,7 @@
 // What a point of a surface reflects of the lights.
 // needs: numeric/kernels/vector.glsl
-// needs: numeric/kernels/wide.glsl
-// needs: numeric/kernels/pow.glsl
+// needs: numeric/kernels/pair.glsl
+// needs: numeric/kernels/pair_pow.glsl
 // needs: lighting/kernels/checker.glsl
 // needs: lighting/kernels/lambert.glsl
 // needs: lighting/kernels/blinn_phong.glsl

@@ -1,6 +1,6 @@
 // From radiance to display bytes. Specified in lighting/tone_map.h.
-// needs: numeric/kernels/wide.glsl
-// needs: numeric/kernels/pow.glsl
+// needs: numeric/kernels/pair.glsl
+// needs: numeric/kernels/pair_pow.glsl
 
 // The sRGB transfer function [IEC61966-2-1]: linear [0, 1] to encoded [0, 1], and back.
 real encodeSrgb(real x) {

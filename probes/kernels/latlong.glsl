@@ -1,6 +1,6 @@
 // Latitude-longitude images of the environment. Specified in probes/latlong.h.
-// needs: numeric/kernels/wide.glsl
-// needs: numeric/kernels/atan2.glsl
+// needs: numeric/kernels/pair.glsl
+// needs: numeric/kernels/pair_atan2.glsl
 // needs: raster/kernels/texture_scope.glsl
 // needs: raster/kernels/sampler.glsl
 

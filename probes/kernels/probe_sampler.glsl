@@ -1,7 +1,7 @@
 // Samples of a probe's images. Specified in probes/convert.h.
-// needs: numeric/kernels/wide.glsl
-// needs: numeric/kernels/atan2.glsl
-// needs: numeric/kernels/sine.glsl
+// needs: numeric/kernels/pair.glsl
+// needs: numeric/kernels/pair_atan2.glsl
+// needs: numeric/kernels/pair_sine.glsl
 // needs: raster/kernels/texture_scope.glsl
 // needs: raster/kernels/sampler.glsl
 // needs: raster/kernels/cube_face.glsl

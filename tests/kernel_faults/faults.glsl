@@ -4,6 +4,7 @@
 real dividedLiterals(real x) { return x * (real(1.0) / real(2.4)); }
 real literalOfNoType(real x) { return x * 0.5; }
 real literalOfNoFloat(real x) { return x * real(134217729.0); }
+real tableOfNoFloat(int i) { return table16(i, 1.0, 268435457.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0); }
 real foldedRoot(real x) { return x * sqrt(real(2.0)); }
 real tinyLiteral(real x) { return x + real(1e-40); }
 real hugeLiteral(real x) { return x + real(1e39); }

@@ -260,6 +260,8 @@ uint64_t scalarHash() {
     for (auto [a, b] : mixedArguments<S>()) {
         hash.add(atan2Of(a, b));
         hash.add(powOf(a, b));
+        hash.add(ElementaryFunctions<S>::sinOf(b));
+        hash.add(ElementaryFunctions<S>::cosOf(b));
     }
     return hash.value();
 }
@@ -275,10 +277,13 @@ uint64_t laneHash() {
         };
         const L a = L::generate([&](int i) { return at(i)[0]; });
         const L b = L::generate([&](int i) { return at(i)[1]; });
-        const L angle = atan2Of(a, b), power = powOf(a, b);
+        const L angle = atan2Of(a, b), power = powOf(a, b), sine = ElementaryFunctions<L>::sinOf(b),
+                cosine = ElementaryFunctions<L>::cosOf(b);
         for (int i = 0; i < active; i++) {
             hash.add(angle[i]);
             hash.add(power[i]);
+            hash.add(sine[i]);
+            hash.add(cosine[i]);
         }
     });
     return hash.value();
@@ -384,15 +389,15 @@ TEST_CASE("AResultOneUnitOffIsBeyondEveryBound") {
     CHECK(worstError(off, mpfr_atan2, kDouble, planeVectorInDouble, kBlock).ulps > 1.0);
 }
 
-// Arguments whose results are so near to halfway between two floats that a computation in double, rounded
-// once, may miss the nearest one: found by trying all floats.
+// Arguments whose results are nearer to halfway between two floats than those of all others: found by trying all.
 TEST_CASE("HardArgumentsAreWithinTheBounds") {
     ErrorMeter meter;
     for (double s : {1.0, -1.0}) {
         const double t = s * 0x1.1ad646p-4;
         CHECK(meter.ulps(mpfr_atan2, {t, 1.0}, atan2InFloat(t, 1.0), kSingle) <= kFloatErrorUlp);
         const double angle = s * 0x1.33333p13;
-        CHECK(meter.ulps(exactSin, {angle, 0.0}, static_cast<float>(sinOf(angle)), kSingle) <=
+        CHECK(meter.ulps(exactSin, {angle, 0.0}, ElementaryFunctions<float>::sinOf(static_cast<float>(angle)),
+                         kSingle) <=
               kFloatErrorUlp);
         CHECK(meter.ulps(exactSin, {angle, 0.0}, sinOf(angle), kDouble) <= kSinErrorUlp);
     }
@@ -488,8 +493,8 @@ TEST_CASE("SinCosAndExpSpecialCases") {
 }
 
 TEST_CASE("ResultsHaveTheSameBitsEverywhere") {
-    CHECK(scalarHash<float>() == 9317659558363802340u);
-    CHECK(scalarHash<double>() == 5997899917154273317u);
+    CHECK(scalarHash<float>() == 14410543788529588957u);
+    CHECK(scalarHash<double>() == 8849395424656536945u);
     RandomNumbers random(1);
     Hash hash;
     for (int i = 0; i < 1 << 16; i++) {
@@ -553,9 +558,9 @@ TEST_CASE("EmulatedFormatsRoundOnce") {
     const Computed angleInHalf = [](double y, double x) { return atan2Of(R(y), R(x)).v; };
     const Computed powerInHalf = [](double x, double y) { return powOf(R(x), R(y)).v; };
     CHECK(worstError(angleInHalf, mpfr_atan2, kHalf, halves(planeVectorInFloat), 1 << 16).ulps <=
-          kFloatErrorUlp);
+          kOtherErrorUlp);
     CHECK(worstError(powerInHalf, mpfr_pow, kHalf, halves(powerArgumentsInFloat), 1 << 16).ulps <=
-          kFloatErrorUlp);
+          kOtherErrorUlp);
     // A subnormal of a format that keeps them is a number like any other.
     CHECK(powOf(R(0x1p-24), R(0.5)).v == 0x1p-12);
     CHECK(atan2Of(R(0x1p-20), R(1.0)).v == 0x1p-20);
