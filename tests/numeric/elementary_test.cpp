@@ -397,8 +397,7 @@ TEST_CASE("HardArgumentsAreWithinTheBounds") {
         CHECK(meter.ulps(mpfr_atan2, {t, 1.0}, atan2InFloat(t, 1.0), kSingle) <= kFloatErrorUlp);
         const double angle = s * 0x1.33333p13;
         CHECK(meter.ulps(exactSin, {angle, 0.0}, ElementaryFunctions<float>::sinOf(static_cast<float>(angle)),
-                         kSingle) <=
-              kFloatErrorUlp);
+                         kSingle) <= kFloatErrorUlp);
         CHECK(meter.ulps(exactSin, {angle, 0.0}, sinOf(angle), kDouble) <= kSinErrorUlp);
     }
     for (double x : {0x1.853a6ep-9, -0x1.e7526ep-6})

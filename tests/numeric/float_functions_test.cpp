@@ -59,8 +59,8 @@ uint32_t strideOfFloats() { return isExhaustive() ? 1 : 509; }
 size_t groupsOfFloats() { return (kLast - kFirst) / (strideOfFloats() * kWidth); }
 F floatsOf(size_t group) {
     return F::generate([&](int i) {
-        return std::bit_cast<float>(static_cast<uint32_t>(
-            kFirst + (group * kWidth + static_cast<size_t>(i)) * strideOfFloats()));
+        return std::bit_cast<float>(
+            static_cast<uint32_t>(kFirst + (group * kWidth + static_cast<size_t>(i)) * strideOfFloats()));
     });
 }
 
@@ -97,7 +97,8 @@ TEST_CASE("SumsAndProductsOfFloatsAreExact") {
         CHECK(static_cast<double>(sum.high) + sum.low == static_cast<double>(a) + b);
         const float larger = std::abs(a) < std::abs(b) ? b : a, smaller = std::abs(a) < std::abs(b) ? a : b;
         CHECK(texts.sumOfOrdered(larger, smaller).low == sum.low);
-        CHECK(texts.leadingPart(a) == std::ldexp(std::trunc(std::ldexp(a, 11 - std::ilogb(a))), std::ilogb(a) - 11));
+        CHECK(texts.leadingPart(a) ==
+              std::ldexp(std::trunc(std::ldexp(a, 11 - std::ilogb(a))), std::ilogb(a) - 11));
     }
 }
 
@@ -116,14 +117,16 @@ TEST_CASE("TablesOfFloatFunctionsHoldTheirValues") {
         CHECK(texts.leadingPart(texts.rootOfTwoHigh(j)) == high);
     }
     for (int k = 0; k <= 13; k++) {
-        CHECK(std::abs(static_cast<double>(texts.sineHigh(k)) + texts.sineLow(k) - std::sin(k / 16.0)) < 0x1p-36);
-        CHECK(std::abs(static_cast<double>(texts.cosineHigh(k)) + texts.cosineLow(k) - std::cos(k / 16.0)) < 0x1p-36);
+        CHECK(std::abs(static_cast<double>(texts.sineHigh(k)) + texts.sineLow(k) - std::sin(k / 16.0)) <
+              0x1p-36);
+        CHECK(std::abs(static_cast<double>(texts.cosineHigh(k)) + texts.cosineLow(k) - std::cos(k / 16.0)) <
+              0x1p-36);
         CHECK(texts.leadingPart(texts.sineHigh(k)) == texts.sineHigh(k));
         CHECK(texts.leadingPart(texts.cosineHigh(k)) == texts.cosineHigh(k));
     }
     for (int k = 0; k <= 8; k++)
-        CHECK(std::abs(static_cast<double>(texts.arcTangentHigh(k)) + texts.arcTangentLow(k) - std::atan(k / 8.0)) <
-              0x1p-48);
+        CHECK(std::abs(static_cast<double>(texts.arcTangentHigh(k)) + texts.arcTangentLow(k) -
+                       std::atan(k / 8.0)) < 0x1p-48);
 }
 
 // Two thousand million floats with ETALON_EXHAUSTIVE: those below 2^-15 are their sines, and their cosines are 1.
@@ -144,7 +147,8 @@ TEST_CASE("LogarithmsOfFloatsAreWithinTheirBound") {
         const Worst found = worstOf((size_t{1} << 23) / (stride * kWidth), [&](size_t group, Worst& at) {
             const F x = F::generate([&](int i) {
                 const size_t fraction = (group * kWidth + static_cast<size_t>(i)) * stride;
-                return std::bit_cast<float>(static_cast<uint32_t>(static_cast<size_t>(exponent + 127) << 23 | fraction));
+                return std::bit_cast<float>(
+                    static_cast<uint32_t>(static_cast<size_t>(exponent + 127) << 23 | fraction));
             });
             const auto logarithm = FloatTexts<F>{}.pairLogarithm(x);
             const D exact = log2InDouble(convertLanes<double>(x)) * D(0x1.62e42fefa39efp-1);
@@ -172,7 +176,8 @@ TEST_CASE("PowersOfFloatsAreWithinTheBound") {
             float base = static_cast<float>(fraction);
             if (i % 4 == 1) base = static_cast<float>(1 + std::ldexp(fraction, -exponent));
             if (i % 4 == 2) base = static_cast<float>(1 - std::ldexp(fraction, -exponent - 1));
-            if (i % 4 == 3) base = std::bit_cast<float>(static_cast<uint32_t>(0x00800000 + fraction * 0x7f000000));
+            if (i % 4 == 3)
+                base = std::bit_cast<float>(static_cast<uint32_t>(0x00800000 + fraction * 0x7f000000));
             if (!(base > 0) || base == 1) base = 0.5f;
             x.set(i, base);
             y.set(i, static_cast<float>(target / std::log2(static_cast<double>(base))));
@@ -180,7 +185,8 @@ TEST_CASE("PowersOfFloatsAreWithinTheBound") {
         const F power = Functions::powOf(x, y);
         const D exact = ElementaryFunctions<D>::powOf(convertLanes<double>(x), convertLanes<double>(y));
         for (int i = 0; i < kWidth; i++)
-            if (exact[i] >= 0x1p-126 && exact[i] < 0x1p128 - 0x1p103) note(at, ulpsOf(power[i], exact[i]), x[i], y[i]);
+            if (exact[i] >= 0x1p-126 && exact[i] < 0x1p128 - 0x1p103)
+                note(at, ulpsOf(power[i], exact[i]), x[i], y[i]);
     });
     report("pow, float, ulp", worst);
     CHECK(worst.error <= kFloatErrorUlp);
