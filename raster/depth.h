@@ -10,6 +10,7 @@
 #include "raster/draw.h"
 #include "raster/raster_kernels.h"
 #include "raster/render_target.h"
+#include "raster/texture_unit.h"
 
 namespace etalon {
 
@@ -26,6 +27,9 @@ inline double depthLevels(DepthFormat format) {
     return 0.0;
 }
 
+// What a depth is cut to before it is written to D16 by rule 22.
+inline constexpr double kDepth16Steps = 0x1p20;
+
 // The integers that are stored for depths z (any finite values; clamped to [0, 1] first).
 template <class S, int N>
 [[gnu::always_inline]] inline Lanes<int32_t, N> storedFloatDepth(Lanes<S, N> z) {
@@ -39,6 +43,14 @@ template <class S, int N>
     if (format == DepthFormat::d32f) return storedFloatDepth(z);
     z = RasterKernels<Lanes<S, N>>::clampOf(z, Lanes<S, N>(0.0), Lanes<S, N>(1.0));
     const double levels = depthLevels(format);
+    if (rounding == DepthRounding::fixedFunction) {
+        using Wide = Lanes<double, N>;
+        TextureUnitTexts<Wide> texts;
+        const Wide narrow = convertLanes<double>(convertLanes<float>(z));
+        return convertLanes<int32_t>(format == DepthFormat::d16
+                                         ? texts.unormCode(narrow, Wide(levels), Wide(kDepth16Steps))
+                                         : texts.depth24Code(narrow));
+    }
     if (rounding == DepthRounding::driver) {
         const Lanes<float, N> product = convertLanes<float>(z) * Lanes<float, N>(levels);
         // Adding and subtracting 1.5 * 2^52 rounds to a whole number, ties to even.

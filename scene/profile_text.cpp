@@ -161,6 +161,10 @@ std::vector<ProfileField> profileFields(const Profile& profile) {
     else
         addNumber("texture_fraction_bits", profile.textureFractionBits);
     addName("texture_filter", profile.textureFilter);
+    addName("texture_format", profile.filterRule.texels);
+    addName("filter_position", profile.filterRule.position);
+    addName("filter_weights", profile.filterRule.weights);
+    addName("filter_sum", profile.filterRule.sum);
     addName("depth_bias_unit", profile.biasUnit);
     addName("volume_stencil", profile.volumeStencil);
     addArithmetic("environment", profile.environment);

@@ -133,6 +133,7 @@ struct ShadowMap {
     ShadowMapSettings settings;
     ShadowProjection projection;
     std::vector<ShadowLayer> layers;  // none: every point is lit
+    DepthRounding depthRounding = DepthRounding::exact;  // of what is stored
     uint64_t triangles = 0;           // submitted to the rasterizer, over all layers
 
     // linear and perspective: the texels are distances.

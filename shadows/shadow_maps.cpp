@@ -14,7 +14,7 @@ void ShadowMaps::set(size_t light, ShadowMap map, const Profile& profile, int th
     entry.map = std::make_unique<ShadowMap>(std::move(map));
     entry.lookup =
         passesIn<LookupPasses>(profile.fragment)
-            ->makeLookup(*entry.map, profile.textureFractionBits, threads, WindowSearch::sideBySide);
+            ->makeLookup(*entry.map, samplerOf(profile), threads, WindowSearch::sideBySide);
     // The look-up has its own copy.
     for (ShadowLayer& layer : entry.map->layers) layer = {};
 }

@@ -1,5 +1,6 @@
 // Diffuse light of the environment: the irradiance of a plane.
 // needs: numeric/kernels/vector.glsl
+// needs: raster/kernels/texture_unit.glsl
 // needs: raster/kernels/texture_scope.glsl
 // needs: raster/kernels/sampler.glsl
 // needs: raster/kernels/cube_face.glsl

@@ -1,4 +1,5 @@
 // Cube-map faces: direction to face and back, and seamless sampling. Specified in raster/cube_face.h.
+// needs: raster/kernels/texture_unit.glsl
 // needs: raster/kernels/texture_scope.glsl
 // needs: raster/kernels/sampler.glsl
 
@@ -133,9 +134,10 @@ CubeTexel cubeTexel(integer face, integer x, integer y) {
     t.y = y;
     return t;
 }
-CubeTaps cubeTaps(CubeCoordinates c, int size, int fractionBits) {
-    TexelPair x = texelPair(c.s * real(size) - real(0.5), fractionBits);
-    TexelPair y = texelPair(c.t * real(size) - real(0.5), fractionBits);
+CubeTaps cubeTaps(CubeCoordinates c, Sampling s) {
+    int size = s.width;
+    TexelPair x = texelsAround(c.s, size, s);
+    TexelPair y = texelsAround(c.t, size, s);
     integer x1 = x.first + integer(1);
     integer y1 = y.first + integer(1);
     boolean leftOut = lessInteger(x.first, integer(0));
@@ -170,26 +172,26 @@ CubeTaps cubeTaps(CubeCoordinates c, int size, int fractionBits) {
 real sampleCubeReal(texture cube, vec3 direction, Sampling s) {
     CubeCoordinates c = cubeCoordinates(direction);
     if (s.filterMode == 0)
-        return fetchReal(cube, c.face, nearestTexel(c.s, s.width), nearestTexel(c.t, s.width));
-    CubeTaps taps = cubeTaps(c, s.width, s.fractionBits);
-    real v00 = fetchReal(cube, taps.t00.face, taps.t00.x, taps.t00.y);
-    real v10 = fetchReal(cube, taps.t10.face, taps.t10.x, taps.t10.y);
-    real v01 = fetchReal(cube, taps.t01.face, taps.t01.x, taps.t01.y);
-    real v11 = fetchReal(cube, taps.t11.face, taps.t11.x, taps.t11.y);
+        return texelReal(cube, c.face, nearestTexel(c.s, s.width, s), nearestTexel(c.t, s.width, s), s);
+    CubeTaps taps = cubeTaps(c, s);
+    real v00 = texelReal(cube, taps.t00.face, taps.t00.x, taps.t00.y, s);
+    real v10 = texelReal(cube, taps.t10.face, taps.t10.x, taps.t10.y, s);
+    real v01 = texelReal(cube, taps.t01.face, taps.t01.x, taps.t01.y, s);
+    real v11 = texelReal(cube, taps.t11.face, taps.t11.x, taps.t11.y, s);
     real c00 = select(taps.corner00, meanOfThree(v10, v01, v11), v00);
     real c10 = select(taps.corner10, meanOfThree(v00, v01, v11), v10);
     real c01 = select(taps.corner01, meanOfThree(v00, v10, v11), v01);
     real c11 = select(taps.corner11, meanOfThree(v00, v10, v01), v11);
-    return bilinear(c00, c10, c01, c11, taps.fractionX, taps.fractionY);
+    return filtered(c00, c10, c01, c11, taps.fractionX, taps.fractionY, s);
 }
 
 // At face coordinates.
 vec3 sampleCubeRgbAt(texture cube, CubeCoordinates c, Sampling s) {
     if (s.filterMode == 0)
-        return fetchRgb(cube, c.face, nearestTexel(c.s, s.width), nearestTexel(c.t, s.width));
-    CubeTaps taps = cubeTaps(c, s.width, s.fractionBits);
-    RgbPair upper = fetchRgbPair(cube, taps.t00.face, taps.t00.x, taps.t00.y, taps.t10.face, taps.t10.x, taps.t10.y);
-    RgbPair lower = fetchRgbPair(cube, taps.t01.face, taps.t01.x, taps.t01.y, taps.t11.face, taps.t11.x, taps.t11.y);
+        return texelRgb(cube, c.face, nearestTexel(c.s, s.width, s), nearestTexel(c.t, s.width, s), s);
+    CubeTaps taps = cubeTaps(c, s);
+    RgbPair upper = texelRgbPair(cube, taps.t00.face, taps.t00.x, taps.t00.y, taps.t10.face, taps.t10.x, taps.t10.y, s);
+    RgbPair lower = texelRgbPair(cube, taps.t01.face, taps.t01.x, taps.t01.y, taps.t11.face, taps.t11.x, taps.t11.y, s);
     vec3 v00 = upper.first;
     vec3 v10 = upper.second;
     vec3 v01 = lower.first;
@@ -204,7 +206,7 @@ vec3 sampleCubeRgbAt(texture cube, CubeCoordinates c, Sampling s) {
         v01 = c01;
         v11 = c11;
     }
-    return bilinear3(v00, v10, v01, v11, taps.fractionX, taps.fractionY);
+    return filtered3(v00, v10, v01, v11, taps.fractionX, taps.fractionY, s);
 }
 vec3 sampleCubeRgb(texture cube, vec3 direction, Sampling s) {
     return sampleCubeRgbAt(cube, cubeCoordinates(direction), s);

@@ -1,8 +1,10 @@
 // Nearest and bilinear sampling of one image. Specified in raster/sampler.h.
+// needs: raster/kernels/texture_unit.glsl
 // needs: raster/kernels/texture_scope.glsl
 
 // Constants of raster/sampler.h: filter 0 nearest, 1 bilinear; wrap 0 clamp, 1 repeat, 2 mirror.
-// fractionBits < 0: exact fractions.
+// fractionBits < 0: exact fractions. position, weights and sum: 0 for the rules of this text, 1 for those of
+// raster/texture_unit.h; texels: what textures hold, 0 as they are, 1 half, 2 and 3 of 16 and 8 bits.
 struct Sampling {
     int width;
     int height;
@@ -10,6 +12,10 @@ struct Sampling {
     int wrapX;
     int wrapY;
     int fractionBits;
+    int position;
+    int weights;
+    int sum;
+    int texels;
 };
 
 // The two texels around a position on one axis: index of the left one (or upper one), weight of the next one.
@@ -30,13 +36,17 @@ real foldCoordinate(real u, int wrap) {
     return clampOf(folded, real(0.0), real(1.0));
 }
 
-// Index of the texel next to [0, size - 1] brought back inside. Mirroring repeats the border texel, as
-// clamping.
+// Index of the texel next to [0, size - 1] brought back inside; mirroring, of [-1, 2 size]. Mirroring repeats the border
+// texel, as clamping.
 integer wrapTexel(integer i, int size, int wrap) {
     integer inside = i;
     if (wrap == 1) {
         inside = selectInteger(lessInteger(i, integer(0)), i + integer(size), i);
         inside = selectInteger(lessInteger(i, integer(size)), inside, i - integer(size));
+    }
+    if (wrap == 2) {
+        int last = 2 * size - 1;
+        inside = selectInteger(lessInteger(i, integer(size)), i, integer(last) - i);
     }
     return clampInteger(inside, integer(0), integer(size - 1));
 }
@@ -79,9 +89,103 @@ vec3 bilinear3(vec3 v00, vec3 v10, vec3 v01, vec3 v11, real fractionX, real frac
     return lerpInside3(lerpInside3(v00, v10, fractionX), lerpInside3(v01, v11, fractionX), fractionY);
 }
 
-// The index of the texel that holds a folded coordinate.
-integer nearestTexel(real folded, int size) {
-    return clampInteger(toInteger(floor(folded * real(size))), integer(0), integer(size - 1));
+// The weights of four texels, multiples of 1/256 as the fractions (rule 22).
+struct TapWeights {
+    real w00;
+    real w10;
+    real w01;
+    real w11;
+};
+TapWeights tapWeights(real fractionX, real fractionY) {
+    integer x = toInteger(fractionX * real(256.0));
+    integer y = toInteger(fractionY * real(256.0));
+    integer both = (x * y + integer(128)) / integer(256);
+    TapWeights w;
+    w.w00 = toReal(integer(256) - x - y + both) * real(0.00390625);
+    w.w10 = toReal(x - both) * real(0.00390625);
+    w.w01 = toReal(y - both) * real(0.00390625);
+    w.w11 = toReal(both) * real(0.00390625);
+    return w;
+}
+
+// The sum of the weighted texels, inside the hull of those that have a weight, so that equal ones give exactly that
+// value. A texel without a weight has no influence.
+real weightedTap(real v, real w) { return select(w == real(0.0), real(0.0), v * w); }
+real weightedSum(real v00, real v10, real v01, real v11, TapWeights w) {
+    real sum = (weightedTap(v00, w.w00) + weightedTap(v10, w.w10)) + (weightedTap(v01, w.w01) + weightedTap(v11, w.w11));
+    real inside = select(w.w11 == real(0.0), select(w.w10 == real(0.0), select(w.w01 == real(0.0), v00, v01), v10), v11);
+    real a = select(w.w00 == real(0.0), inside, v00);
+    real b = select(w.w10 == real(0.0), inside, v10);
+    real c = select(w.w01 == real(0.0), inside, v01);
+    real lo = minOf(minOf(a, b), minOf(c, inside));
+    real hi = maxOf(maxOf(a, b), maxOf(c, inside));
+    sum = select(sum < lo, lo, sum);
+    return select(hi < sum, hi, sum);
+}
+
+// Four texels by the rules of s.
+real filtered(real v00, real v10, real v01, real v11, real fractionX, real fractionY, Sampling s) {
+    if (s.weights == 0) return bilinear(v00, v10, v01, v11, fractionX, fractionY);
+    TapWeights w = tapWeights(fractionX, fractionY);
+    if (s.sum == 0) return weightedSum(v00, v10, v01, v11, w);
+    return unitTexelSum(v00, v10, v01, v11, w.w00, w.w10, w.w01, w.w11, s.texels);
+}
+vec3 filtered3(vec3 v00, vec3 v10, vec3 v01, vec3 v11, real fractionX, real fractionY, Sampling s) {
+    if (s.weights == 0) return bilinear3(v00, v10, v01, v11, fractionX, fractionY);
+    return vec3(filtered(v00.x, v10.x, v01.x, v11.x, fractionX, fractionY, s),
+                filtered(v00.y, v10.y, v01.y, v11.y, fractionX, fractionY, s),
+                filtered(v00.z, v10.z, v01.z, v11.z, fractionX, fractionY, s));
+}
+
+// Texels as the format of s holds them.
+real storedReal(real v, Sampling s) {
+    if (s.texels == 0) return v;
+    return unitWritten(v, s.texels);
+}
+vec3 storedRgb(vec3 v, Sampling s) {
+    if (s.texels == 0) return v;
+    return vec3(unitWritten(v.x, s.texels), unitWritten(v.y, s.texels), unitWritten(v.z, s.texels));
+}
+real texelReal(texture t, integer layer, integer x, integer y, Sampling s) {
+    return storedReal(fetchReal(t, layer, x, y), s);
+}
+vec3 texelRgb(texture t, integer layer, integer x, integer y, Sampling s) {
+    return storedRgb(fetchRgb(t, layer, x, y), s);
+}
+RgbPair texelRgbPair(texture t, integer layer0, integer x0, integer y0, integer layer1, integer x1, integer y1,
+                     Sampling s) {
+    RgbPair pair = fetchRgbPair(t, layer0, x0, y0, layer1, x1, y1);
+    pair.first = storedRgb(pair.first, s);
+    pair.second = storedRgb(pair.second, s);
+    return pair;
+}
+
+// The two texels around a coordinate by the texture unit; wrap 3: of a coordinate that is not folded.
+TexelPair unitTexelPair(real u, int size, int wrap) {
+    UnitTexel texel = unitTexel(u, size, wrap);
+    TexelPair pair;
+    pair.first = texel.first;
+    pair.fraction = texel.fraction;
+    return pair;
+}
+// The two texels around a coordinate inside [0, 1] on an axis of `size` texels, before they are wrapped, and the texel
+// that holds it.
+TexelPair texelsAround(real u, int size, Sampling s) {
+    if (s.position == 1) return unitTexelPair(u, size, 0);
+    return texelPair(u * real(size) - real(0.5), s.fractionBits);
+}
+integer nearestTexel(real u, int size, Sampling s) {
+    if (s.position == 1) return wrapTexel(unitNearestTexel(u, size, 0), size, 0);
+    return clampInteger(toInteger(floor(u * real(size))), integer(0), integer(size - 1));
+}
+// The same of any coordinate.
+TexelPair texelsAroundWrapped(real u, int size, int wrap, Sampling s) {
+    if (s.position == 1) return unitTexelPair(u, size, wrap);
+    return texelsAround(foldCoordinate(u, wrap), size, s);
+}
+integer nearestTexelWrapped(real u, int size, int wrap, Sampling s) {
+    if (s.position == 1) return wrapTexel(unitNearestTexel(u, size, wrap), size, wrap);
+    return nearestTexel(foldCoordinate(u, wrap), size, s);
 }
 
 // The four texels of a bilinear sample and the weights of the right and lower ones.
@@ -94,10 +198,9 @@ struct ImageTaps {
     real fractionY;
 };
 
-// u and v folded.
 ImageTaps imageTaps(real u, real v, Sampling s) {
-    TexelPair x = texelPair(u * real(s.width) - real(0.5), s.fractionBits);
-    TexelPair y = texelPair(v * real(s.height) - real(0.5), s.fractionBits);
+    TexelPair x = texelsAroundWrapped(u, s.width, s.wrapX, s);
+    TexelPair y = texelsAroundWrapped(v, s.height, s.wrapY, s);
     ImageTaps taps;
     taps.x0 = wrapTexel(x.first, s.width, s.wrapX);
     taps.x1 = wrapTexel(x.first + integer(1), s.width, s.wrapX);
@@ -109,22 +212,20 @@ ImageTaps imageTaps(real u, real v, Sampling s) {
 }
 
 real sampleReal(texture t, integer layer, real u, real v, Sampling s) {
-    real foldedU = foldCoordinate(u, s.wrapX);
-    real foldedV = foldCoordinate(v, s.wrapY);
     if (s.filterMode == 0)
-        return fetchReal(t, layer, nearestTexel(foldedU, s.width), nearestTexel(foldedV, s.height));
-    ImageTaps p = imageTaps(foldedU, foldedV, s);
-    return bilinear(fetchReal(t, layer, p.x0, p.y0), fetchReal(t, layer, p.x1, p.y0), fetchReal(t, layer, p.x0, p.y1),
-                    fetchReal(t, layer, p.x1, p.y1), p.fractionX, p.fractionY);
+        return texelReal(t, layer, nearestTexelWrapped(u, s.width, s.wrapX, s),
+                         nearestTexelWrapped(v, s.height, s.wrapY, s), s);
+    ImageTaps p = imageTaps(u, v, s);
+    return filtered(texelReal(t, layer, p.x0, p.y0, s), texelReal(t, layer, p.x1, p.y0, s),
+                    texelReal(t, layer, p.x0, p.y1, s), texelReal(t, layer, p.x1, p.y1, s), p.fractionX, p.fractionY, s);
 }
 
 vec3 sampleRgb(texture t, integer layer, real u, real v, Sampling s) {
-    real foldedU = foldCoordinate(u, s.wrapX);
-    real foldedV = foldCoordinate(v, s.wrapY);
     if (s.filterMode == 0)
-        return fetchRgb(t, layer, nearestTexel(foldedU, s.width), nearestTexel(foldedV, s.height));
-    ImageTaps p = imageTaps(foldedU, foldedV, s);
-    RgbPair upper = fetchRgbPair(t, layer, p.x0, p.y0, layer, p.x1, p.y0);
-    RgbPair lower = fetchRgbPair(t, layer, p.x0, p.y1, layer, p.x1, p.y1);
-    return bilinear3(upper.first, upper.second, lower.first, lower.second, p.fractionX, p.fractionY);
+        return texelRgb(t, layer, nearestTexelWrapped(u, s.width, s.wrapX, s),
+                         nearestTexelWrapped(v, s.height, s.wrapY, s), s);
+    ImageTaps p = imageTaps(u, v, s);
+    RgbPair upper = texelRgbPair(t, layer, p.x0, p.y0, layer, p.x1, p.y0, s);
+    RgbPair lower = texelRgbPair(t, layer, p.x0, p.y1, layer, p.x1, p.y1, s);
+    return filtered3(upper.first, upper.second, lower.first, lower.second, p.fractionX, p.fractionY, s);
 }

@@ -369,7 +369,7 @@ TEST_CASE("ShadowThreadsAndLevelsChangeNoBit") {
                                             {threads, threads == 1 ? 64 : 16, false});
                         std::vector<double> visibility(points.size());
                         passesIn<LookupPasses>(profile.fragment)
-                            ->makeLookup(map, 8, threads, WindowSearch::sideBySide)
+                            ->makeLookup(map, {.fractionBits = 8}, threads, WindowSearch::sideBySide)
                             ->find(points, visibility);
                         all.push_back(visibility);
                     }

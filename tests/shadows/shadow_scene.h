@@ -78,7 +78,7 @@ inline std::vector<double> lookUp(const ShadowMap& map, const LitPoints& points,
     const Profile& profile = *findProfile(profileName);
     std::vector<double> visibility(points.size());
     passesIn<LookupPasses>(profile.fragment)
-        ->makeLookup(map, profile.textureFractionBits, 1, search)
+        ->makeLookup(map, samplerOf(profile), 1, search)
         ->find(points, visibility);
     return visibility;
 }
