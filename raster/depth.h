@@ -37,6 +37,16 @@ template <class S, int N>
     const Lanes<float, N> narrow = convertLanes<float>(z);
     return Lanes<int32_t, N>(reinterpret_cast<typename Lanes<int32_t, N>::Vector>(narrow.v));
 }
+// UNORM, by rule 22; z in [0, 1]. Not inlined into what is drawn by other rules.
+template <int N>
+[[gnu::noinline]] void writeUnormDepth(DepthFormat format, const Lanes<float, N>& z, Lanes<int32_t, N>& stored) {
+    using Wide = Lanes<double, N>;
+    TextureUnitTexts<Wide> texts;
+    const Wide wide = convertLanes<double>(z);
+    stored = convertLanes<int32_t>(format == DepthFormat::d16
+                                       ? texts.unormCode(wide, Wide(depthLevels(format)), Wide(kDepth16Steps))
+                                       : texts.depth24Code(wide));
+}
 template <class S, int N>
 [[gnu::always_inline]] inline Lanes<int32_t, N> storedDepth(DepthFormat format, DepthRounding rounding,
                                                             Lanes<S, N> z) {
@@ -44,12 +54,9 @@ template <class S, int N>
     z = RasterKernels<Lanes<S, N>>::clampOf(z, Lanes<S, N>(0.0), Lanes<S, N>(1.0));
     const double levels = depthLevels(format);
     if (rounding == DepthRounding::fixedFunction) {
-        using Wide = Lanes<double, N>;
-        TextureUnitTexts<Wide> texts;
-        const Wide narrow = convertLanes<double>(convertLanes<float>(z));
-        return convertLanes<int32_t>(format == DepthFormat::d16
-                                         ? texts.unormCode(narrow, Wide(levels), Wide(kDepth16Steps))
-                                         : texts.depth24Code(narrow));
+        Lanes<int32_t, N> stored;
+        writeUnormDepth(format, convertLanes<float>(z), stored);
+        return stored;
     }
     if (rounding == DepthRounding::driver) {
         const Lanes<float, N> product = convertLanes<float>(z) * Lanes<float, N>(levels);

@@ -81,7 +81,7 @@ void checkFilter(const TableReader& reader, const Profile& profile) {
     if (fault.field.empty()) return;
     for (const std::string_view key : {fault.field, std::string_view("texture_fraction_bits"),
                                        std::string_view("filter_weights"), std::string_view("fragment")})
-        if (reader.has(key)) reader.failKey(key, formatText("{} = {}", fault.field, fault.reason));
+        if (reader.has(key)) reader.failKey(key, formatText("does not go with {}: {}", fault.field, fault.reason));
 }
 
 }  // namespace
