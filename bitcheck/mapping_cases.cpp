@@ -24,10 +24,10 @@ std::vector<BitPlane> conversionsOf(const Profile& profile, int threads) {
     const Probe sky = probeOf(skyImage(32, 16), Mapping::latLong);
     const auto convert = [&](const Probe& probe, const ProbeShape& shape, Resampling resampling,
                              bool isTurned) {
-        return convertProbe(
-            probe, {shape, isTurned ? rotation : glm::dmat3(1), resampling, 2, profile.textureFractionBits,
-             profile.filterRule},
-            profile.fragment, threads);
+        return convertProbe(probe,
+                            {shape, isTurned ? rotation : glm::dmat3(1), resampling, 2,
+                             profile.textureFractionBits, profile.filterRule},
+                            profile.fragment, threads);
     };
     std::vector<BitPlane> planes;
     const Probe cube = convert(sky, {Mapping::cube, 7, 7}, single, false);

@@ -39,7 +39,8 @@ template <class S, int N>
 }
 // UNORM, by rule 22; z in [0, 1]. Not inlined into what is drawn by other rules.
 template <int N>
-[[gnu::noinline]] void writeUnormDepth(DepthFormat format, const Lanes<float, N>& z, Lanes<int32_t, N>& stored) {
+[[gnu::noinline]] void writeUnormDepth(DepthFormat format, const Lanes<float, N>& z,
+                                       Lanes<int32_t, N>& stored) {
     using Wide = Lanes<double, N>;
     TextureUnitTexts<Wide> texts;
     const Wide wide = convertLanes<double>(z);

@@ -74,14 +74,15 @@ Arithmetic readArithmetic(const TableReader& reader, std::string_view key, const
 // A filter's rules that do not go together, at the key that asks for them or, where its base does, at another one.
 void checkFilter(const TableReader& reader, const Profile& profile) {
     constexpr int kEnough = 53;  // double and truth
-    const int bits = profile.fragment.format                               ? profile.fragment.format->significandBits
+    const int bits = profile.fragment.format                       ? profile.fragment.format->significandBits
                      : profile.fragment.type() == NumberType::fp32 ? kFp32.significandBits
                                                                    : kEnough;
     const FilterFault fault = filterFault(profile.filterRule, profile.textureFractionBits, bits);
     if (fault.field.empty()) return;
     for (const std::string_view key : {fault.field, std::string_view("texture_fraction_bits"),
                                        std::string_view("filter_weights"), std::string_view("fragment")})
-        if (reader.has(key)) reader.failKey(key, formatText("does not go with {}: {}", fault.field, fault.reason));
+        if (reader.has(key))
+            reader.failKey(key, formatText("does not go with {}: {}", fault.field, fault.reason));
 }
 
 }  // namespace

@@ -55,7 +55,8 @@ constexpr Note kNotes[] = {
      "what rounds up to the smallest normal number is kept"},
     {"nvidia", "fragment.overflow", "infinities and NaN, " NVIDIA_MEASURED, ""},
     {"nvidia", "fragment.division", "exact under the execution mode RoundingModeRTE, " NVIDIA_MEASURED,
-     "that mode, and an exact root: the driver's quotients are off by up to 2 ULP in 22 % of cases, its roots by "
+     "that mode, and an exact root: the driver's quotients are off by up to 2 ULP in 22 % of cases, its "
+     "roots by "
      "1 ULP in 8 %"},
     {"nvidia", "fragment.power", "", "correctly rounded: the driver's are off by up to 66 ULP"},
     {"nvidia", "vertex", "binary32, " NVIDIA_MEASURED, "subnormals kept"},

@@ -27,8 +27,8 @@ enum class WindowSearch : uint8_t { sideBySide, text };
 
 struct LookupPasses {
     // sampler: its fraction bits, and its rules of positions and weights, are those of pcf (raster/sampler.h).
-    std::unique_ptr<ShadowLookup> (*makeLookup)(const ShadowMap& map, const SamplerSettings& sampler, int threads,
-                                                WindowSearch search);
+    std::unique_ptr<ShadowLookup> (*makeLookup)(const ShadowMap& map, const SamplerSettings& sampler,
+                                                int threads, WindowSearch search);
 };
 
 }  // namespace etalon

@@ -74,7 +74,8 @@ class ShadowTexels {
     // The integer that a depth is written as by rule 22.
     template <class S>
     S written(const S& z) const {
-        const DepthFormat format = levels_ == depthLevels(DepthFormat::d16) ? DepthFormat::d16 : DepthFormat::d24;
+        const DepthFormat format =
+            levels_ == depthLevels(DepthFormat::d16) ? DepthFormat::d16 : DepthFormat::d24;
         if constexpr (std::is_floating_point_v<S>)
             return static_cast<S>(storedDepth(format, rounding_, Lanes<S, 1>(z))[0]);
         else

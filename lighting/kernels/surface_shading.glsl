@@ -6,6 +6,7 @@
 // needs: numeric/kernels/wide.glsl
 // needs: numeric/kernels/pow.glsl
 // needs: raster/kernels/texture_unit.glsl
+// needs: raster/kernels/tap_weights.glsl
 // needs: raster/kernels/texture_scope.glsl
 // needs: raster/kernels/sampler.glsl
 // needs: raster/kernels/cube_face.glsl

@@ -2,6 +2,7 @@
 // needs: numeric/kernels/wide.glsl
 // needs: numeric/kernels/atan2.glsl
 // needs: raster/kernels/texture_unit.glsl
+// needs: raster/kernels/tap_weights.glsl
 // needs: raster/kernels/texture_scope.glsl
 // needs: raster/kernels/sampler.glsl
 
@@ -62,11 +63,11 @@ LatLongTaps latLongTaps(real u, real v, Sampling s) {
 vec3 sampleLatLongAt(texture env, LatLongCoordinates c, Sampling s) {
     integer layer = integer(0);
     if (s.filterMode == 0)
-        return texelRgb(env, layer, nearestTexel(c.u, s.width, s), nearestTexel(c.v, s.height, s), s);
+        return storedRgb(fetchRgb(env, layer, nearestTexel(c.u, s.width, s), nearestTexel(c.v, s.height, s)), s);
     LatLongTaps taps = latLongTaps(c.u, c.v, s);
-    RgbPair upper = texelRgbPair(env, layer, taps.x00, taps.y0, layer, taps.x10, taps.y0, s);
-    RgbPair lower = texelRgbPair(env, layer, taps.x01, taps.y1, layer, taps.x11, taps.y1, s);
-    return filtered3(upper.first, upper.second, lower.first, lower.second, taps.fractionX, taps.fractionY, s);
+    RgbPair upper = fetchRgbPair(env, layer, taps.x00, taps.y0, layer, taps.x10, taps.y0);
+    RgbPair lower = fetchRgbPair(env, layer, taps.x01, taps.y1, layer, taps.x11, taps.y1);
+    return filteredRgb(rgbTaps(upper, lower, s), taps.fractionX, taps.fractionY, s);
 }
 vec3 sampleLatLong(texture env, vec3 direction, Sampling s) {
     return sampleLatLongAt(env, latLongCoordinates(direction), s);

@@ -3,6 +3,7 @@
 // needs: numeric/kernels/atan2.glsl
 // needs: numeric/kernels/sine.glsl
 // needs: raster/kernels/texture_unit.glsl
+// needs: raster/kernels/tap_weights.glsl
 // needs: raster/kernels/texture_scope.glsl
 // needs: raster/kernels/sampler.glsl
 // needs: raster/kernels/cube_face.glsl
@@ -109,7 +110,7 @@ ProbeSample cornerSample(boolean isCorner, ProbeSample v, ProbeSample a, ProbeSa
 
 // `shown` has 1 for texels with radiance and 0 for the others.
 ProbeSample tapSample(texture radiance, texture shown, CubeTexel t, Sampling s) {
-    return probeSample(texelRgb(radiance, t.face, t.x, t.y, s), isShownTexel(shown, t));
+    return probeSample(storedRgb(fetchRgb(radiance, t.face, t.x, t.y), s), isShownTexel(shown, t));
 }
 // Two taps; one that is not shown has become the other.
 struct ProbePair {
@@ -132,8 +133,12 @@ ProbeSample filterShown(ProbeSample v00, ProbeSample v10, ProbeSample v01, Probe
     ProbePair lower = filledPair(v01, v11);
     ProbePair left = filledPair(upper.a, lower.a);
     ProbePair right = filledPair(upper.b, lower.b);
-    return probeSample(filtered3(left.a.rgb, right.a.rgb, left.b.rgb, right.b.rgb, fractionX, fractionY, s),
-                       left.a.isShown);
+    RgbTaps taps;
+    taps.v00 = left.a.rgb;
+    taps.v10 = right.a.rgb;
+    taps.v01 = left.b.rgb;
+    taps.v11 = right.b.rgb;
+    return probeSample(filteredRgb(taps, fractionX, fractionY, s), left.a.isShown);
 }
 ProbeSample sampleMasked(texture radiance, texture shown, MappingPoint p, int mapping, Sampling s) {
     ProbeSample r;
@@ -159,7 +164,7 @@ ProbeSample sampleMasked(texture radiance, texture shown, MappingPoint p, int ma
 vec3 sampleWhole(texture radiance, MappingPoint p, int mapping, Sampling s) {
     if (s.filterMode == 0) {
         CubeTexel t = nearestProbeTexel(p, s);
-        return texelRgb(radiance, t.face, t.x, t.y, s);
+        return storedRgb(fetchRgb(radiance, t.face, t.x, t.y), s);
     }
     if (mapping == 1) {
         CubeCoordinates c;
@@ -169,9 +174,9 @@ vec3 sampleWhole(texture radiance, MappingPoint p, int mapping, Sampling s) {
         return sampleCubeRgbAt(radiance, c, s);
     }
     CubeTaps t = probeTaps(p, mapping, s);
-    RgbPair upper = texelRgbPair(radiance, t.t00.face, t.t00.x, t.t00.y, t.t10.face, t.t10.x, t.t10.y, s);
-    RgbPair lower = texelRgbPair(radiance, t.t01.face, t.t01.x, t.t01.y, t.t11.face, t.t11.x, t.t11.y, s);
-    return filtered3(upper.first, upper.second, lower.first, lower.second, t.fractionX, t.fractionY, s);
+    RgbPair upper = fetchRgbPair(radiance, t.t00.face, t.t00.x, t.t00.y, t.t10.face, t.t10.x, t.t10.y);
+    RgbPair lower = fetchRgbPair(radiance, t.t01.face, t.t01.x, t.t01.y, t.t11.face, t.t11.x, t.t11.y);
+    return filteredRgb(rgbTaps(upper, lower, s), t.fractionX, t.fractionY, s);
 }
 
 // What a source of a mapping is sampled with. Within the radius `whole` of a disc all texels of a bilinear sample are

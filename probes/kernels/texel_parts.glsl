@@ -3,6 +3,7 @@
 // needs: numeric/kernels/atan2.glsl
 // needs: numeric/kernels/sine.glsl
 // needs: raster/kernels/texture_unit.glsl
+// needs: raster/kernels/tap_weights.glsl
 // needs: raster/kernels/texture_scope.glsl
 // needs: raster/kernels/sampler.glsl
 // needs: raster/kernels/cube_face.glsl

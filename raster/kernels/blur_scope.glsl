@@ -2,6 +2,7 @@
 // through a texture. The C++ counterpart is BlurKernel in raster/blur.h.
 
 // needs: raster/kernels/texture_unit.glsl
+// needs: raster/kernels/tap_weights.glsl
 // needs: raster/kernels/texture_scope.glsl
 layout(std430, set = 0, binding = 0) readonly buffer BlurWeights { real blurWeights[]; };
 layout(set = 0, binding = 1) uniform sampler2DArray blurImage;

@@ -1,5 +1,6 @@
 // Nearest and bilinear sampling of one image. Specified in raster/sampler.h.
 // needs: raster/kernels/texture_unit.glsl
+// needs: raster/kernels/tap_weights.glsl
 // needs: raster/kernels/texture_scope.glsl
 
 // Constants of raster/sampler.h: filter 0 nearest, 1 bilinear; wrap 0 clamp, 1 repeat, 2 mirror.
@@ -89,52 +90,14 @@ vec3 bilinear3(vec3 v00, vec3 v10, vec3 v01, vec3 v11, real fractionX, real frac
     return lerpInside3(lerpInside3(v00, v10, fractionX), lerpInside3(v01, v11, fractionX), fractionY);
 }
 
-// The weights of four texels, multiples of 1/256 as the fractions (rule 22).
-struct TapWeights {
-    real w00;
-    real w10;
-    real w01;
-    real w11;
-};
-TapWeights tapWeights(real fractionX, real fractionY) {
-    integer x = toInteger(fractionX * real(256.0));
-    integer y = toInteger(fractionY * real(256.0));
-    integer both = (x * y + integer(128)) / integer(256);
-    TapWeights w;
-    w.w00 = toReal(integer(256) - x - y + both) * real(0.00390625);
-    w.w10 = toReal(x - both) * real(0.00390625);
-    w.w01 = toReal(y - both) * real(0.00390625);
-    w.w11 = toReal(both) * real(0.00390625);
-    return w;
-}
-
-// The sum of the weighted texels, inside the hull of those that have a weight, so that equal ones give exactly that
-// value. A texel without a weight has no influence.
-real weightedTap(real v, real w) { return select(w == real(0.0), real(0.0), v * w); }
-real weightedSum(real v00, real v10, real v01, real v11, TapWeights w) {
-    real sum = (weightedTap(v00, w.w00) + weightedTap(v10, w.w10)) + (weightedTap(v01, w.w01) + weightedTap(v11, w.w11));
-    real inside = select(w.w11 == real(0.0), select(w.w10 == real(0.0), select(w.w01 == real(0.0), v00, v01), v10), v11);
-    real a = select(w.w00 == real(0.0), inside, v00);
-    real b = select(w.w10 == real(0.0), inside, v10);
-    real c = select(w.w01 == real(0.0), inside, v01);
-    real lo = minOf(minOf(a, b), minOf(c, inside));
-    real hi = maxOf(maxOf(a, b), maxOf(c, inside));
-    sum = select(sum < lo, lo, sum);
-    return select(hi < sum, hi, sum);
-}
-
 // Four texels by the rules of s.
-real filtered(real v00, real v10, real v01, real v11, real fractionX, real fractionY, Sampling s) {
-    if (s.weights == 0) return bilinear(v00, v10, v01, v11, fractionX, fractionY);
-    TapWeights w = tapWeights(fractionX, fractionY);
-    if (s.sum == 0) return weightedSum(v00, v10, v01, v11, w);
-    return unitTexelSum(v00, v10, v01, v11, w.w00, w.w10, w.w01, w.w11, s.texels);
+real filtered(RealTaps t, real fractionX, real fractionY, Sampling s) {
+    if (s.weights == 1) return unitFiltered(t, fractionX, fractionY, s.sum, s.texels);
+    return bilinear(t.v00, t.v10, t.v01, t.v11, fractionX, fractionY);
 }
-vec3 filtered3(vec3 v00, vec3 v10, vec3 v01, vec3 v11, real fractionX, real fractionY, Sampling s) {
-    if (s.weights == 0) return bilinear3(v00, v10, v01, v11, fractionX, fractionY);
-    return vec3(filtered(v00.x, v10.x, v01.x, v11.x, fractionX, fractionY, s),
-                filtered(v00.y, v10.y, v01.y, v11.y, fractionX, fractionY, s),
-                filtered(v00.z, v10.z, v01.z, v11.z, fractionX, fractionY, s));
+vec3 filteredRgb(RgbTaps t, real fractionX, real fractionY, Sampling s) {
+    if (s.weights == 1) return unitFilteredRgb(t, fractionX, fractionY, s.sum, s.texels);
+    return bilinear3(t.v00, t.v10, t.v01, t.v11, fractionX, fractionY);
 }
 
 // Texels as the format of s holds them.
@@ -144,20 +107,21 @@ real storedReal(real v, Sampling s) {
 }
 vec3 storedRgb(vec3 v, Sampling s) {
     if (s.texels == 0) return v;
-    return vec3(unitWritten(v.x, s.texels), unitWritten(v.y, s.texels), unitWritten(v.z, s.texels));
+    return unitWrittenRgb(v, s.texels);
 }
-real texelReal(texture t, integer layer, integer x, integer y, Sampling s) {
-    return storedReal(fetchReal(t, layer, x, y), s);
+RealTaps realTaps(real v00, real v10, real v01, real v11, Sampling s) {
+    RealTaps t = realTapsOf(v00, v10, v01, v11);
+    if (s.texels == 0) return t;
+    return unitWrittenTaps(t, s.texels);
 }
-vec3 texelRgb(texture t, integer layer, integer x, integer y, Sampling s) {
-    return storedRgb(fetchRgb(t, layer, x, y), s);
-}
-RgbPair texelRgbPair(texture t, integer layer0, integer x0, integer y0, integer layer1, integer x1, integer y1,
-                     Sampling s) {
-    RgbPair pair = fetchRgbPair(t, layer0, x0, y0, layer1, x1, y1);
-    pair.first = storedRgb(pair.first, s);
-    pair.second = storedRgb(pair.second, s);
-    return pair;
+RgbTaps rgbTaps(RgbPair upper, RgbPair lower, Sampling s) {
+    RgbTaps t;
+    t.v00 = upper.first;
+    t.v10 = upper.second;
+    t.v01 = lower.first;
+    t.v11 = lower.second;
+    if (s.texels == 0) return t;
+    return unitWrittenRgbTaps(t, s.texels);
 }
 
 // The two texels around a coordinate by the texture unit; wrap 3: of a coordinate that is not folded.
@@ -213,19 +177,22 @@ ImageTaps imageTaps(real u, real v, Sampling s) {
 
 real sampleReal(texture t, integer layer, real u, real v, Sampling s) {
     if (s.filterMode == 0)
-        return texelReal(t, layer, nearestTexelWrapped(u, s.width, s.wrapX, s),
-                         nearestTexelWrapped(v, s.height, s.wrapY, s), s);
+        return storedReal(fetchReal(t, layer, nearestTexelWrapped(u, s.width, s.wrapX, s),
+                                    nearestTexelWrapped(v, s.height, s.wrapY, s)),
+                          s);
     ImageTaps p = imageTaps(u, v, s);
-    return filtered(texelReal(t, layer, p.x0, p.y0, s), texelReal(t, layer, p.x1, p.y0, s),
-                    texelReal(t, layer, p.x0, p.y1, s), texelReal(t, layer, p.x1, p.y1, s), p.fractionX, p.fractionY, s);
+    RealTaps taps = realTaps(fetchReal(t, layer, p.x0, p.y0), fetchReal(t, layer, p.x1, p.y0),
+                             fetchReal(t, layer, p.x0, p.y1), fetchReal(t, layer, p.x1, p.y1), s);
+    return filtered(taps, p.fractionX, p.fractionY, s);
 }
 
 vec3 sampleRgb(texture t, integer layer, real u, real v, Sampling s) {
     if (s.filterMode == 0)
-        return texelRgb(t, layer, nearestTexelWrapped(u, s.width, s.wrapX, s),
-                         nearestTexelWrapped(v, s.height, s.wrapY, s), s);
+        return storedRgb(fetchRgb(t, layer, nearestTexelWrapped(u, s.width, s.wrapX, s),
+                                  nearestTexelWrapped(v, s.height, s.wrapY, s)),
+                         s);
     ImageTaps p = imageTaps(u, v, s);
-    RgbPair upper = texelRgbPair(t, layer, p.x0, p.y0, layer, p.x1, p.y0, s);
-    RgbPair lower = texelRgbPair(t, layer, p.x0, p.y1, layer, p.x1, p.y1, s);
-    return filtered3(upper.first, upper.second, lower.first, lower.second, p.fractionX, p.fractionY, s);
+    RgbPair upper = fetchRgbPair(t, layer, p.x0, p.y0, layer, p.x1, p.y0);
+    RgbPair lower = fetchRgbPair(t, layer, p.x0, p.y1, layer, p.x1, p.y1);
+    return filteredRgb(rgbTaps(upper, lower, s), p.fractionX, p.fractionY, s);
 }

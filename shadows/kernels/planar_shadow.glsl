@@ -1,6 +1,7 @@
 // The part of a light that reaches a point of a plane, from the plane's shadow texture (shadows/planar_shadow.h).
 // needs: numeric/kernels/vector.glsl
 // needs: raster/kernels/texture_unit.glsl
+// needs: raster/kernels/tap_weights.glsl
 // needs: raster/kernels/texture_scope.glsl
 // needs: raster/kernels/sampler.glsl
 
@@ -31,7 +32,7 @@ real planarVisibility(texture t, vec3 p, PlanarMap m) {
     if (s.filterMode == 0) {
         integer column = wrapTexel(toInteger(floor(x + real(0.5))), s.width, 0);
         integer row = wrapTexel(toInteger(floor(y + real(0.5))), s.height, 0);
-        return real(1.0) - texelReal(t, layer, column, row, s);
+        return real(1.0) - storedReal(fetchReal(t, layer, column, row), s);
     }
     TexelPair inX = planarTexels(x, s.width, s);
     TexelPair inY = planarTexels(y, s.height, s);
@@ -39,9 +40,9 @@ real planarVisibility(texture t, vec3 p, PlanarMap m) {
     integer x1 = wrapTexel(inX.first + integer(1), s.width, 0);
     integer y0 = wrapTexel(inY.first, s.height, 0);
     integer y1 = wrapTexel(inY.first + integer(1), s.height, 0);
-    real shadow = filtered(texelReal(t, layer, x0, y0, s), texelReal(t, layer, x1, y0, s), texelReal(t, layer, x0, y1, s),
-                           texelReal(t, layer, x1, y1, s), inX.fraction, inY.fraction, s);
-    return real(1.0) - shadow;
+    RealTaps taps = realTaps(fetchReal(t, layer, x0, y0), fetchReal(t, layer, x1, y0), fetchReal(t, layer, x0, y1),
+                             fetchReal(t, layer, x1, y1), s);
+    return real(1.0) - filtered(taps, inX.fraction, inY.fraction, s);
 }
 
 // The part that also passes one texture more. before: what passes those that were looked up so far, 1 at first; a light's

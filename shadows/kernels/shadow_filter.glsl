@@ -2,6 +2,7 @@
 // Specified in shadows/shadow_map.h.
 // needs: numeric/kernels/vector.glsl
 // needs: raster/kernels/texture_unit.glsl
+// needs: raster/kernels/tap_weights.glsl
 // needs: raster/kernels/texture_scope.glsl
 // needs: raster/kernels/sampler.glsl
 // needs: raster/kernels/cube_face.glsl
@@ -96,7 +97,8 @@ LitTexels litTexels(PointFilter f, ShadowPoint p, TexelPair x, TexelPair y) {
 // 1 where all are lit.
 real litPart(real lit00, real lit10, real lit01, real lit11, real fractionX, real fractionY, int taps, Sampling s) {
     real lit = bilinear(lit00, lit10, lit01, lit11, fractionX, fractionY);
-    if (s.weights == 1) lit = weightedSum(lit00, lit10, lit01, lit11, tapWeights(fractionX, fractionY));
+    // In the arithmetic, of numbers as they are.
+    if (s.weights == 1) lit = unitFiltered(realTapsOf(lit00, lit10, lit01, lit11), fractionX, fractionY, 0, 0);
     return lit / real(taps * taps);
 }
 

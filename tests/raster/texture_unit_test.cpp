@@ -86,7 +86,9 @@ float sumOfFloats(const std::array<float, 4>& v, const std::array<int, 4>& w, in
     Wide sum = 0;
     for (size_t k = 0; k < 4; k++) {
         const int shift = exponent[k] - 24 - (largest - bits - 4);
-        int64_t part = shift >= 0 ? significand[k] << std::min(shift, 20) : shift < -62 ? 0 : significand[k] >> -shift;
+        int64_t part = shift >= 0    ? significand[k] << std::min(shift, 20)
+                       : shift < -62 ? 0
+                                     : significand[k] >> -shift;
         if (w[k] == 0 || v[k] == 0) part = 0;
         sum += Wide(v[k] < 0 ? -part : part) * w[k];
     }
@@ -109,10 +111,11 @@ SamplerSettings settingsOf(Wrap wrap, Filter filter, TexelFormat texels = TexelF
 template <class T>
 float sampled(const TextureView& texture, float u, float v, const SamplerSettings& settings) {
     using Kernel = SamplerKernel<T>;
-    return static_cast<float>(numberLane(
-        Kernel{}.sampleReal(texture, typename Kernel::integer(0), T(static_cast<double>(u)), T(static_cast<double>(v)),
-                            samplingOf<Kernel>(settings, texture.width(), texture.height())),
-        0));
+    return static_cast<float>(
+        numberLane(Kernel{}.sampleReal(texture, typename Kernel::integer(0), T(static_cast<double>(u)),
+                                       T(static_cast<double>(v)),
+                                       samplingOf<Kernel>(settings, texture.width(), texture.height())),
+                   0));
 }
 // Texel i holds i.
 Image<float> numberedRow(int width) {
@@ -124,16 +127,17 @@ Image<float> numberedRow(int width) {
 float coordinate(RandomNumbers& random, int size, int i) {
     if (i % 4 == 0) return static_cast<float>(random.uniform(-3.0, 4.0));
     const double position = random.below(256 * size) + 0.5 * random.below(2);
-    float u = static_cast<float>(position / (256.0 * size)) + static_cast<float>(i % 4 == 1 ? random.below(7) - 3 : 0);
+    float u = static_cast<float>(position / (256.0 * size)) +
+              static_cast<float>(i % 4 == 1 ? random.below(7) - 3 : 0);
     for (int step = random.below(5); step > 0; step--) u = std::nextafter(u, i % 2 == 0 ? -10.0f : 10.0f);
     return std::fabs(u) < 0x1p-126f ? 0 : u;  // profiles that flush
 }
 
 }  // namespace
 
-TEST_CASE_TEMPLATE("TapWeightsAreTheRuleInIntegers", T, float, double, Lanes<float, 4>, Rounded<kFp16>, Rounded<kBf16>,
-                   Truth) {
-    SamplerKernel<T> kernel;
+TEST_CASE_TEMPLATE("TapWeightsAreTheRuleInIntegers", T, float, double, Lanes<float, 4>, Rounded<kFp16>,
+                   Rounded<kBf16>, Truth) {
+    TapWeightTexts<T> kernel;
     for (int x = 0; x < 256; x++)
         for (int y = 0; y < 256; y++) {
             const auto w = kernel.tapWeights(T(x / 256.0), T(y / 256.0));
@@ -143,7 +147,8 @@ TEST_CASE_TEMPLATE("TapWeightsAreTheRuleInIntegers", T, float, double, Lanes<flo
         }
 }
 
-TEST_CASE_TEMPLATE("FixedPointPositionsAreTheRuleInIntegers", T, float, double, Emulated<double>, Lanes<float, 8>) {
+TEST_CASE_TEMPLATE("FixedPointPositionsAreTheRuleInIntegers", T, float, double, Emulated<double>,
+                   Lanes<float, 8>) {
     const EmulatedScope scope(kFp32Flush);
     RandomNumbers random(1);
     for (int size : {1, 2, 3, 7, 60, 64, 100, 1000, 1024, 2047, 4097, 8192, 8193, 16384, 32768})
@@ -158,7 +163,9 @@ TEST_CASE_TEMPLATE("FixedPointPositionsAreTheRuleInIntegers", T, float, double, 
                 using Integer = typename SamplerKernel<T>::integer;
                 const T number(static_cast<double>(u));
                 const auto texel = kernel.unitTexelPair(number, size, mode);
-                const auto indexOf = [&](const Integer& at) { return numberLane(kernel.wrapTexel(at, size, mode), 0); };
+                const auto indexOf = [&](const Integer& at) {
+                    return numberLane(kernel.wrapTexel(at, size, mode), 0);
+                };
                 const LinearTexels expected = linearTexels(u, size, wrap);
                 REQUIRE(indexOf(texel.first) == expected.first);
                 REQUIRE(indexOf(texel.first + Integer(1)) == expected.next);
@@ -174,7 +181,9 @@ TEST_CASE("CoordinatesThatAreNoNumbersHaveATexel") {
     const Image<float> row = numberedRow(7);
     for (Wrap wrap : {Wrap::clamp, Wrap::repeat, Wrap::mirror})
         for (Filter filter : {Filter::nearest, Filter::bilinear}) {
-            const auto at = [&](float u) { return sampled<float>(TextureView(row), u, 0.5f, settingsOf(wrap, filter)); };
+            const auto at = [&](float u) {
+                return sampled<float>(TextureView(row), u, 0.5f, settingsOf(wrap, filter));
+            };
             CHECK(at(std::numeric_limits<float>::quiet_NaN()) == at(0.0f));
             CHECK(at(-kInfinity) == at(0.0f));
             CHECK(at(kInfinity) == (wrap == Wrap::clamp ? 6 : at(0.0f)));
@@ -186,7 +195,8 @@ TEST_CASE("CoordinatesThatAreNoNumbersHaveATexel") {
         }
 }
 
-TEST_CASE_TEMPLATE("SumsOfFloatTexelsAreTheRuleInIntegers", T, float, double, Emulated<double>, Lanes<float, 4>) {
+TEST_CASE_TEMPLATE("SumsOfFloatTexelsAreTheRuleInIntegers", T, float, double, Emulated<double>,
+                   Lanes<float, 4>) {
     const EmulatedScope scope(kFp32);
     RandomNumbers random(2);
     TextureUnitTexts<double> texts;
@@ -205,8 +215,8 @@ TEST_CASE_TEMPLATE("SumsOfFloatTexelsAreTheRuleInIntegers", T, float, double, Em
         const std::array<int, 4> w = weightsOf(x, y);
         const auto weight = [&](size_t k) { return T(w[k] / 256.0); };
         const auto texel = [&](size_t k) { return T(static_cast<double>(v[k])); };
-        const T sum = TextureUnit<T>::sum({texel(0), texel(1), texel(2), texel(3)},
-                                          {weight(0), weight(1), weight(2), weight(3)}, isHalf ? 1 : 0);
+        const T sum = TextureUnit<T>::weighted({texel(0), texel(1), texel(2), texel(3)},
+                                               {weight(0), weight(1), weight(2), weight(3)}, isHalf ? 1 : 0);
         const float expected = isHalf ? sumOfFloats(v, w, 11, -14) : sumOfFloats(v, w, 24, -126);
         REQUIRE(numberLane(sum, 0) == expected);
     }
@@ -221,11 +231,13 @@ TEST_CASE("SumsOfCodesAreTheRuleInIntegers") {
         int64_t sum = 0;
         for (size_t k = 0; k < 4; k++) {
             const int code = random.below(isByte ? 256 : 65536);
-            v[k] = isByte ? floatOfCode(static_cast<uint8_t>(code)) : floatOfCode(static_cast<uint16_t>(code));
+            v[k] =
+                isByte ? floatOfCode(static_cast<uint8_t>(code)) : floatOfCode(static_cast<uint16_t>(code));
             w[k] = static_cast<float>(weightsOf(x, y)[k]) / 256.0f;
             sum += int64_t{weightsOf(x, y)[k]} * (isByte ? 257 * code : code);
         }
-        REQUIRE(TextureUnit<float>::sum(v, w, isByte ? 3 : 2) == static_cast<float>((sum + 128) >> 8) / 65535.0f);
+        REQUIRE(TextureUnit<float>::weighted(v, w, isByte ? 3 : 2) ==
+                static_cast<float>((sum + 128) >> 8) / 65535.0f);
     }
 }
 
@@ -275,8 +287,8 @@ TEST_CASE_TEMPLATE("Depth24WritesAreTheRuleInIntegers", S, float, double) {
         const Wide rest = product - (k << 40);
         const bool isMiddle = numerator % 65536 == 32768 && numerator < one / 16;
         if (2 * rest > one || (2 * rest == one && k % 2 == 1) || isMiddle) k++;
-        REQUIRE(storedDepth(DepthFormat::d24, DepthRounding::fixedFunction, Lanes<S, 1>(static_cast<double>(x)))[0] ==
-                static_cast<int32_t>(k));
+        REQUIRE(storedDepth(DepthFormat::d24, DepthRounding::fixedFunction,
+                            Lanes<S, 1>(static_cast<double>(x)))[0] == static_cast<int32_t>(k));
     }
 }
 
@@ -284,20 +296,23 @@ TEST_CASE("WritesToHalfTruncateAndStayFinite") {
     TextureUnitTexts<double> texts;
     for (uint32_t code = 0; code < 0x7c00; code++) {
         const float half = floatOfHalf(static_cast<uint16_t>(code));
-        const float next = code == 0x7bff ? std::numeric_limits<float>::infinity() : floatOfHalf(static_cast<uint16_t>(code + 1));
+        const float next = code == 0x7bff ? std::numeric_limits<float>::infinity()
+                                          : floatOfHalf(static_cast<uint16_t>(code + 1));
         for (float x : {half, std::nextafter(half, next), std::nextafter(next, half)}) {
             REQUIRE(texts.halfWritten(x) == half);
             REQUIRE(texts.halfWritten(-x) == -half);
         }
     }
     CHECK(texts.halfWritten(3e38) == 65504);
-    CHECK(texts.halfWritten(std::numeric_limits<double>::infinity()) == std::numeric_limits<double>::infinity());
+    CHECK(texts.halfWritten(std::numeric_limits<double>::infinity()) ==
+          std::numeric_limits<double>::infinity());
     CHECK(std::isnan(texts.halfWritten(std::numeric_limits<double>::quiet_NaN())));
 }
 
 // What raster/sampler.h promises of filters holds for the hardware's.
 TEST_CASE("HardwareFiltersKeepConstantsAndIgnoreTexelsWithoutWeight") {
-    constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInfinity = std::numeric_limits<float>::infinity();
+    constexpr float kNan = std::numeric_limits<float>::quiet_NaN(),
+                    kInfinity = std::numeric_limits<float>::infinity();
     FilterRule weightsOnly;
     weightsOnly.weights = FilterWeights::bits8;
     RandomNumbers random(5);
@@ -308,9 +323,11 @@ TEST_CASE("HardwareFiltersKeepConstantsAndIgnoreTexelsWithoutWeight") {
         };
         for (int i = 0; i < 3000; i++) {
             Image<float> image(2, 2);
-            const float constant = std::ldexp(static_cast<float>(random.uniform(-1.0, 1.0)), random.below(200) - 100);
+            const float constant =
+                std::ldexp(static_cast<float>(random.uniform(-1.0, 1.0)), random.below(200) - 100);
             image.fill(constant);
-            const float u = static_cast<float>(random.uniform(0.0, 1.0)), v = static_cast<float>(random.uniform(0.0, 1.0));
+            const float u = static_cast<float>(random.uniform(0.0, 1.0)),
+                        v = static_cast<float>(random.uniform(0.0, 1.0));
             REQUIRE(at(image, u, v) == constant);
             for (float& texel : image.values()) texel = static_cast<float>(random.uniform(-3.0, 40.0));
             const auto [lo, hi] = std::minmax_element(image.values().begin(), image.values().end());
@@ -333,7 +350,8 @@ TEST_CASE("TexelsAreThoseOfTheFormat") {
     Image<float> image(2, 1);
     image.at(0, 0) = 0.3f, image.at(1, 0) = 1.7f;
     const auto texel = [&](int i, TexelFormat format) {
-        return sampled<float>(TextureView(image), i == 0 ? 0.25f : 0.75f, 0.5f, settingsOf(Wrap::clamp, Filter::nearest, format));
+        return sampled<float>(TextureView(image), i == 0 ? 0.25f : 0.75f, 0.5f,
+                              settingsOf(Wrap::clamp, Filter::nearest, format));
     };
     CHECK(texel(0, TexelFormat::float32) == 0.3f);
     CHECK(texel(0, TexelFormat::float16) == floatOfHalf(0x34cc));
@@ -382,7 +400,8 @@ std::vector<Rows> recordings() {
     const auto word = [&] {
         std::array<unsigned char, 4> bytes{};
         file.read(reinterpret_cast<char*>(bytes.data()), 4);
-        return uint32_t{bytes[0]} | uint32_t{bytes[1]} << 8 | uint32_t{bytes[2]} << 16 | uint32_t{bytes[3]} << 24;
+        return uint32_t{bytes[0]} | uint32_t{bytes[1]} << 8 | uint32_t{bytes[2]} << 16 |
+               uint32_t{bytes[3]} << 24;
     };
     while (file.peek() != std::ifstream::traits_type::eof()) {
         REQUIRE(word() == tables.size());
@@ -452,14 +471,15 @@ TEST_CASE_TEMPLATE("RecordedBilinearSamplesAreReproduced", T, float, Emulated<do
 
 // A comparison gives 1 or 0, which are weighted: one texel of four is lit.
 TEST_CASE("RecordedComparisonsAreReproduced") {
-    SamplerKernel<float> kernel;
+    TapWeightTexts<float> kernel;
     const std::vector<Rows> tables = recordings();
     for (const auto& row : tables[4])
         for (size_t k = 0; k < 4; k++) {
             std::array<float, 4> lit{};
             lit[k] = 1;
             REQUIRE(wordOf(kernel.weightedSum(lit[0], lit[1], lit[2], lit[3],
-                                              kernel.tapWeights(fractionOf(row[1]), fractionOf(row[2])))) == row[3 + k]);
+                                              kernel.tapWeights(fractionOf(row[1]), fractionOf(row[2])))) ==
+                    row[3 + k]);
         }
 }
 
@@ -471,7 +491,8 @@ TEST_CASE("RecordedWritesAreReproduced") {
                                                      std::ldexp(1.0, static_cast<int>(bits) + 4)));
     };
     const auto depth = [](float x, DepthFormat format) {
-        return static_cast<uint32_t>(storedDepth(format, DepthRounding::fixedFunction, Lanes<float, 1>(x))[0]);
+        return static_cast<uint32_t>(
+            storedDepth(format, DepthRounding::fixedFunction, Lanes<float, 1>(x))[0]);
     };
     // Offsets in codes from k + 1/2 of the first input that writes k + 1, to within a float or a thousandth.
     constexpr double kGrid = 0.001;
@@ -480,7 +501,9 @@ TEST_CASE("RecordedWritesAreReproduced") {
         const double levels = std::ldexp(1.0, static_cast<int>(bits)) - 1;
         const auto codeOf = [&](double offset, float towards) {
             const auto x = std::nextafter(static_cast<float>((row[1] + 0.5 + offset) / levels), towards);
-            return kind == 48 ? depth(x, DepthFormat::d16) : kind == 56 ? depth(x, DepthFormat::d24) : unorm(x, bits);
+            return kind == 48   ? depth(x, DepthFormat::d16)
+                   : kind == 56 ? depth(x, DepthFormat::d24)
+                                : unorm(x, bits);
         };
         CAPTURE(kind);
         CAPTURE(row[1]);

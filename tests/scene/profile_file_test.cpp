@@ -99,7 +99,8 @@ seed = 99
     CHECK(profile.volumeStencil == VolumeStencil::exact);
     CHECK(profile.biasUnit == BiasUnit::driver);
     CHECK(composed("volume_stencil = '8-bit'").volumeStencil == VolumeStencil::bits8);
-    CHECK(composed("texture_fraction_bits = 'exact'\nbase = 'vulkan-min'").textureFractionBits == kExactFraction);
+    CHECK(composed("texture_fraction_bits = 'exact'\nbase = 'vulkan-min'").textureFractionBits ==
+          kExactFraction);
     CHECK(composed("base = 'd3d11'\nfilter_weights = 'product'").filterRule == FilterRule{});
     CHECK(composed("base = 'nvidia'\ntexture_format = 'unorm8'").filterRule.texels == TexelFormat::unorm8);
     CHECK(composed("depth_rounding = 'fixed-function'").depthRounding == DepthRounding::fixedFunction);
@@ -162,7 +163,8 @@ TEST_CASE("BadProfileFilesAreRefusedWithLineAndKey") {
     refuses("filter_position = 'fixed-point'", "1: 'filter_position'", "texture_fraction_bits = 8");
     refuses("filter_weights = '8-bit'", "1: 'filter_weights'", "at most 8");
     refuses("filter_sum = 'fixed-function'", "1: 'filter_sum'", "8-bit");
-    refuses("base = 'd3d11'\ntexture_fraction_bits = 'exact'", "2: 'texture_fraction_bits'", "filter_weights");
+    refuses("base = 'd3d11'\ntexture_fraction_bits = 'exact'", "2: 'texture_fraction_bits'",
+            "filter_weights");
     refuses("base = 'nvidia'\ntexture_fraction_bits = 4", "2: 'texture_fraction_bits'", "filter_position");
     refuses("base = 'nvidia'\nfragment = 'fp16'", "2: 'fragment'", "at least 24 significand bits");
     refuses("[fragment]\nbits = 3", "2: unknown key 'bits' in [fragment]");

@@ -144,8 +144,9 @@ TEST_CASE("WindowsSideBySideGiveTheBitsOfTheText") {
         const char* profile;
         bool isHardware;
     };
-    for (const auto& [profile, isHardware] : {Choice{"f32", false}, Choice{"f64", false}, Choice{"vulkan-min", false},
-                                              Choice{"f32", true}, Choice{"f64", true}})
+    for (const auto& [profile, isHardware] :
+         {Choice{"f32", false}, Choice{"f64", false}, Choice{"vulkan-min", false}, Choice{"f32", true},
+          Choice{"f64", true}})
         for (const SurfaceLight& light :
              {sun({0.4, 1, 0.3}), bulb({0.3, 2, 0.2}), torch({0.3, 2, 0.2}, {0, -1, 0}, 0.7)})
             for (const ShadowDepth depth :
@@ -165,7 +166,8 @@ TEST_CASE("WindowsSideBySideGiveTheBitsOfTheText") {
                     if (random.chance(0.7)) addNoise(map, random);
                     size_t partly = 0, different = 0;
                     Profile chosen = *findProfile(profile);
-                    if (isHardware) chosen.textureFractionBits = 8, chosen.filterRule = findProfile("nvidia")->filterRule;
+                    if (isHardware)
+                        chosen.textureFractionBits = 8, chosen.filterRule = findProfile("nvidia")->filterRule;
                     const auto expected = lookUp(map, points, chosen, WindowSearch::text),
                                actual = lookUp(map, points, chosen);
                     for (size_t i = 0; i < points.size(); i++) {
@@ -218,16 +220,18 @@ TEST_CASE("WindowsHaveThePositionsAndWeightsOfTheTextureUnit") {
                 const int64_t p = ((256 * t * width + (1 << 20)) >> 21) - 128;
                 REQUIRE(start.first == p >> 8);
                 REQUIRE(start.fraction * 256 == static_cast<float>(p & 255));
-                REQUIRE(kernels.texelOf(position, sampling).first ==
-                        std::floor(std::floor(position / static_cast<float>(width) * 0x1p21) * width / 0x1p21));
+                REQUIRE(
+                    kernels.texelOf(position, sampling).first ==
+                    std::floor(std::floor(position / static_cast<float>(width) * 0x1p21) * width / 0x1p21));
                 const int x = random.integer(0, 255), y = random.integer(0, 255), both = (x * y + 128) / 256;
                 int lit[4];
                 for (int& count : lit) count = random.integer(0, taps * taps);
-                const int sum = (256 - x - y + both) * lit[0] + (x - both) * lit[1] + (y - both) * lit[2] + both * lit[3];
-                const float part =
-                    kernels.litPart(static_cast<float>(lit[0]), static_cast<float>(lit[1]), static_cast<float>(lit[2]),
-                                    static_cast<float>(lit[3]), static_cast<float>(x) / 256.0f,
-                                    static_cast<float>(y) / 256.0f, taps, sampling);
+                const int sum =
+                    (256 - x - y + both) * lit[0] + (x - both) * lit[1] + (y - both) * lit[2] + both * lit[3];
+                const float part = kernels.litPart(static_cast<float>(lit[0]), static_cast<float>(lit[1]),
+                                                   static_cast<float>(lit[2]), static_cast<float>(lit[3]),
+                                                   static_cast<float>(x) / 256.0f,
+                                                   static_cast<float>(y) / 256.0f, taps, sampling);
                 REQUIRE(part == static_cast<float>(sum) / static_cast<float>(256 * taps * taps));
             }
         }
@@ -250,7 +254,8 @@ TEST_CASE_TEMPLATE("QuantisedReferencesAreWrittenAsTheMapIs", T, float, Lanes<fl
             auto z = static_cast<float>((random.integer(0, static_cast<int>(levels) - 1) + 0.5) / levels);
             if (i % 3 == 0) z = static_cast<float>(random.integer(0, 0xfffff) + 0.5) * 0x1p-24f;
             if (i % 5 == 0) z = static_cast<float>(random.uniform(0, 1));
-            const int written = storedDepth(map.format(), DepthRounding::fixedFunction, Lanes<float, 1>(z))[0];
+            const int written =
+                storedDepth(map.format(), DepthRounding::fixedFunction, Lanes<float, 1>(z))[0];
             const auto isBelow = [&](int stored) {
                 return anyOf(texels.isBelowStored(T(static_cast<double>(stored)), T(static_cast<double>(z))));
             };
