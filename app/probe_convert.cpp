@@ -56,6 +56,7 @@ ExitCode runProbeConvert(const ProbeConvertVerb& verb) {
     conversion.samplesPerAxis = verb.samples;
     const Profile profile = loadProfile(verb.profile);
     conversion.fractionBits = profile.textureFractionBits;
+    conversion.rule = profile.filterRule;
     // The frame of the result, about +Y from that of the source or of the world.
     const SinCos turn = sinCosOfDegrees(verb.rotation_deg);
     const glm::dmat3 aboutY(turn.cos, 0, -turn.sin, 0, 1, 0, turn.sin, 0, turn.cos);

@@ -24,9 +24,10 @@ std::vector<BitPlane> conversionsOf(const Profile& profile, int threads) {
     const Probe sky = probeOf(skyImage(32, 16), Mapping::latLong);
     const auto convert = [&](const Probe& probe, const ProbeShape& shape, Resampling resampling,
                              bool isTurned) {
-        return convertProbe(
-            probe, {shape, isTurned ? rotation : glm::dmat3(1), resampling, 2, profile.textureFractionBits},
-            profile.fragment, threads);
+        return convertProbe(probe,
+                            {shape, isTurned ? rotation : glm::dmat3(1), resampling, 2,
+                             profile.textureFractionBits, profile.filterRule},
+                            profile.fragment, threads);
     };
     std::vector<BitPlane> planes;
     const Probe cube = convert(sky, {Mapping::cube, 7, 7}, single, false);
@@ -39,7 +40,8 @@ std::vector<BitPlane> conversionsOf(const Profile& profile, int threads) {
     addProbe(planes, "from-ball", convert(ball, {Mapping::latLong, 18, 9}, Resampling::area, false));
     addProbe(planes, "area", convert(sky, {Mapping::cube, 3, 3}, Resampling::area, false));
     planes.push_back(planeOf("listing", latLongFromCube(cubeMapOf(cube), 18, 9,
-                                                        {profile.textureFilter, profile.textureFractionBits},
+                                                        {profile.textureFilter, profile.textureFractionBits,
+                                                         CubeEdges::seamless, profile.filterRule},
                                                         profile.fragment, threads)));
     return planes;
 }

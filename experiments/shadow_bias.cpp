@@ -115,7 +115,7 @@ std::vector<double> visibilityOf(const LitPoints& points, const Setting& setting
     perMetre = map.projection.scale / (map.projection.isPerspective ? kLamp_m : 1);
     std::vector<double> visibility(points.size());
     passesIn<LookupPasses>(profile.fragment)
-        ->makeLookup(map, profile.textureFractionBits, 0, WindowSearch::sideBySide)
+        ->makeLookup(map, samplerOf(profile), 0, WindowSearch::sideBySide)
         ->find(points, visibility);
     return visibility;
 }

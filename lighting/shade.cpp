@@ -141,6 +141,7 @@ CubeMap<float> environmentCube(const SurfaceEnvironment& environment, const Prof
     CubeFromLatLong options;
     options.filter = profile.textureFilter;
     options.fractionBits = profile.textureFractionBits;
+    options.rule = profile.filterRule;
     const int size = std::max(1, environment.latLong.width() / 4);
     return passesIn<MappingPasses>(profile.fragment)
         ->cubeFromLatLong(environment.latLong, size, options, threads);

@@ -24,6 +24,7 @@ struct ConversionJob {
     Resampling resampling = Resampling::bilinear;
     int samplesPerAxis = 1;
     int fractionBits = kExactFraction;
+    FilterRule rule = {};
     int threads = 0;
 };
 

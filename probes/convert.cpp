@@ -87,6 +87,7 @@ void convertProbe(Probe& result, const Probe& source, const ProbeConversion& con
     job.resampling = conversion.resampling;
     job.samplesPerAxis = conversion.samplesPerAxis;
     job.fractionBits = conversion.fractionBits;
+    job.rule = conversion.rule;
     job.threads = threads;
 
     result.shape = conversion.shape;

@@ -40,6 +40,7 @@ struct ProbeConversion {
     Resampling resampling = Resampling::bilinear;
     int samplesPerAxis = 4;  // of area, 1 .. kMaxSamplesPerAxis
     int fractionBits = kExactFraction;
+    FilterRule rule = {};
 };
 
 // The radiance (and distance and validity, where the source has them) of the source as a probe of another
@@ -67,6 +68,7 @@ struct LatLongFromCube {
     Filter filter = Filter::bilinear;
     int fractionBits = kExactFraction;
     CubeEdges edges = CubeEdges::seamless;
+    FilterRule rule = {};
 };
 
 // The papers' path: one lookup of a cube map of three channels per texel of a lat-long image, in the

@@ -40,9 +40,9 @@ class ConversionWriter {
           distance_m_(job.distance_m.empty() ? radiance_ : TextureView(job.distance_m)) {
         const bool isNearest = job.resampling == Resampling::nearest;
         sampling_.source = mappingSettingsOf<Kernel>(job.source);
-        sampling_.sampling = samplingOf<Kernel>(
-            {isNearest ? Filter::nearest : Filter::bilinear, Wrap::clamp, Wrap::clamp, job.fractionBits},
-            job.source.width, job.source.height);
+        sampling_.sampling = samplingOf<Kernel>({isNearest ? Filter::nearest : Filter::bilinear, Wrap::clamp,
+                                                 Wrap::clamp, job.fractionBits, job.rule},
+                                                job.source.width, job.source.height);
         sampling_.isMasked = job.shown.empty() ? 0 : 1;
         sampling_.whole = T(job.wholeRadius);
         nearest_ = sampling_.sampling;
@@ -184,8 +184,9 @@ void latLongFromCubeImage(const CubeMap<float>& cube, const LatLongFromCube& opt
     using Kernel = ConversionKernel<T>;
     constexpr int kWidth = Number<T>::lanes;
     const TextureView texture(cube);
-    const auto sampling = samplingOf<Kernel>({options.filter, Wrap::clamp, Wrap::clamp, options.fractionBits},
-                                             cube.size(), cube.size());
+    const auto sampling =
+        samplingOf<Kernel>({options.filter, Wrap::clamp, Wrap::clamp, options.fractionBits, options.rule},
+                           cube.size(), cube.size());
     const int width = latLong.width(), height = latLong.height();
     const LanedColumns<T> columns(width, 1, [&](int x, int) { return coordinateOf(x, 0, width, 1); });
     parallelForRowBlocks(height, threads, [&](int y0, int y1) {

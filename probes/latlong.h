@@ -97,6 +97,7 @@ struct CubeFromLatLong {
     Filter filter = Filter::bilinear;
     int fractionBits = kExactFraction;
     int samplesPerAxis = 1;  // per cube texel, on a regular grid; 1 .. kMaxSamplesPerAxis
+    FilterRule rule = {};
 };
 inline constexpr int kMaxSamplesPerAxis = 64;
 
@@ -112,8 +113,9 @@ CubeMap<float> cubeFromLatLong(const Image<float>& latLong, int size, const Cube
     using Kernel = CubeOfLatLongKernel<T>;
     constexpr int kWidth = Number<T>::lanes;
     const TextureView texture(latLong);
-    const auto sampling = samplingOf<Kernel>(
-        {options.filter, Wrap::repeat, Wrap::clamp, options.fractionBits}, latLong.width(), latLong.height());
+    const auto sampling =
+        samplingOf<Kernel>({options.filter, Wrap::repeat, Wrap::clamp, options.fractionBits, options.rule},
+                           latLong.width(), latLong.height());
     const LanedColumns<T> columns(size, parts,
                                   [&](int x, int part) { return coordinateOf(x, part, size, parts); });
     const T share(1.0 / (parts * parts));

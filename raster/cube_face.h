@@ -18,7 +18,7 @@
 // Bilinear sampling is seamless: a texel beyond a face's border is the adjoining texel of the neighbouring
 // face; at a corner, where only three texels meet, the missing fourth counts as their mean, as the Vulkan
 // specification recommends. Fractions, tap order and hull are those of raster/sampler.h; in `Sampling` only
-// the width (the cube's size), the filter and the fraction bits are used.
+// the width (the cube's size), the filter and its rules are used.
 #pragma once
 
 #include "numeric/kernel_types.h"

@@ -10,6 +10,7 @@
 #include "raster/draw.h"
 #include "raster/raster_kernels.h"
 #include "raster/render_target.h"
+#include "raster/texture_unit.h"
 
 namespace etalon {
 
@@ -26,6 +27,9 @@ inline double depthLevels(DepthFormat format) {
     return 0.0;
 }
 
+// What a depth is cut to before it is written to D16 by rule 22.
+inline constexpr double kDepth16Steps = 0x1p20;
+
 // The integers that are stored for depths z (any finite values; clamped to [0, 1] first).
 template <class S, int N>
 [[gnu::always_inline]] inline Lanes<int32_t, N> storedFloatDepth(Lanes<S, N> z) {
@@ -33,12 +37,28 @@ template <class S, int N>
     const Lanes<float, N> narrow = convertLanes<float>(z);
     return Lanes<int32_t, N>(reinterpret_cast<typename Lanes<int32_t, N>::Vector>(narrow.v));
 }
+// UNORM, by rule 22; z in [0, 1]. Not inlined into what is drawn by other rules.
+template <int N>
+[[gnu::noinline]] void writeUnormDepth(DepthFormat format, const Lanes<float, N>& z,
+                                       Lanes<int32_t, N>& stored) {
+    using Wide = Lanes<double, N>;
+    TextureUnitTexts<Wide> texts;
+    const Wide wide = convertLanes<double>(z);
+    stored = convertLanes<int32_t>(format == DepthFormat::d16
+                                       ? texts.unormCode(wide, Wide(depthLevels(format)), Wide(kDepth16Steps))
+                                       : texts.depth24Code(wide));
+}
 template <class S, int N>
 [[gnu::always_inline]] inline Lanes<int32_t, N> storedDepth(DepthFormat format, DepthRounding rounding,
                                                             Lanes<S, N> z) {
     if (format == DepthFormat::d32f) return storedFloatDepth(z);
     z = RasterKernels<Lanes<S, N>>::clampOf(z, Lanes<S, N>(0.0), Lanes<S, N>(1.0));
     const double levels = depthLevels(format);
+    if (rounding == DepthRounding::fixedFunction) {
+        Lanes<int32_t, N> stored;
+        writeUnormDepth(format, convertLanes<float>(z), stored);
+        return stored;
+    }
     if (rounding == DepthRounding::driver) {
         const Lanes<float, N> product = convertLanes<float>(z) * Lanes<float, N>(levels);
         // Adding and subtracting 1.5 * 2^52 rounds to a whole number, ties to even.

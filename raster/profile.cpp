@@ -9,18 +9,25 @@ namespace {
 // R300 and NV40 as far as their vendors documented them (docs/references.md). What is documented of each field and what
 // is assumed: scene/profile_text.cpp. Those that imitate hardware or a specification have its stencil of 8 bits: they are
 // the ones whose depths are integers.
-std::array<Profile, 10> namedProfiles() {
-    std::array<Profile, 10> named = {{
+std::array<Profile, 11> namedProfiles() {
+    std::array<Profile, 11> named = {{
         {"f32", "IEEE single precision, exact texture fractions, D32F", Arithmetic::fp32},
         {"f64", "IEEE double precision, exact texture fractions, D32F", Arithmetic::fp64, RasterReal::fp64},
         {"truth",
          "192-bit arithmetic for fragments, double for vertices; slow, to measure the others against",
          Arithmetic::truth, RasterReal::fp64},
-        {"d3d11", "single precision with flushed subnormals, 8-bit texture fractions, D24 [documented]",
+        {"d3d11",
+         "single precision with flushed subnormals, 8-bit texture fractions, D24 [documented]; 8-bit weights",
          Arithmetic::fp32Flush, RasterReal::fp32, DepthFormat::d24, DepthRounding::exact, 8, 8},
         {"vulkan-min",
          "single precision, 4-bit subpixels and texture fractions, D16: the least a device may offer",
          Arithmetic::fp32, RasterReal::fp32, DepthFormat::d16, DepthRounding::exact, 4, 4},
+        {"nvidia",
+         "what an NVIDIA H100 computes: flushed subnormals, 8-bit texture weights, sums and writes of its "
+         "fixed-function units, D24 [measured]",
+         Arithmetic::fp32Flush, RasterReal::fp32, DepthFormat::d24, DepthRounding::fixedFunction, 8, 8,
+         Filter::bilinear, Arithmetic::fp64, BiasUnit::driver, VolumeStencil::bits8,
+         FilterRule{FilterPosition::fixedPoint, FilterWeights::bits8, FilterSum::fixedFunction}},
         {"nv40-fp32", "GeForce 6 single precision; flushed subnormals and nearest-even are assumed, D24",
          Arithmetic::fp32Nv40, RasterReal::fp32, DepthFormat::d24, DepthRounding::exact, 8, 8,
          Filter::nearest},
@@ -35,15 +42,17 @@ std::array<Profile, 10> namedProfiles() {
         {"fp16", "IEEE half precision for fragments, single for vertices, D32F", Arithmetic::fp16},
         {"bf16", "bfloat16 for fragments, single for vertices, D32F", Arithmetic::bf16},
     }};
-    for (Profile& profile : named)
+    for (Profile& profile : named) {
         if (profile.depth != DepthFormat::d32f) profile.volumeStencil = VolumeStencil::bits8;
+        if (profile.name == "d3d11") profile.filterRule.weights = FilterWeights::bits8;
+    }
     return named;
 }
 
 }  // namespace
 
 std::span<const Profile> profiles() {
-    static const std::array<Profile, 10> named = namedProfiles();
+    static const std::array<Profile, 11> named = namedProfiles();
     return named;
 }
 

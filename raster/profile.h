@@ -31,6 +31,7 @@ struct Profile {
     Arithmetic environment = Arithmetic::fp64;  // of what is made of an environment to light surfaces with
     BiasUnit biasUnit = BiasUnit::step;         // of constant depth bias
     VolumeStencil volumeStencil = VolumeStencil::exact;
+    FilterRule filterRule = {};  // of float textures, and of the weights of percentage-closer filtering
 };
 
 // How float textures are sampled.
@@ -38,6 +39,7 @@ inline SamplerSettings samplerOf(const Profile& profile) {
     SamplerSettings settings;
     settings.filter = profile.textureFilter;
     settings.fractionBits = profile.textureFractionBits;
+    settings.rule = profile.filterRule;
     return settings;
 }
 

@@ -16,8 +16,8 @@
 namespace etalon {
 
 enum class DepthFormat : uint8_t { d16, d24, d32f };
-enum class DepthRounding : uint8_t { exact, driver };  // rule 6
-enum class RasterReal : uint8_t { fp32, fp64 };        // arithmetic of depth interpolation (rule 5)
+enum class DepthRounding : uint8_t { exact, driver, fixedFunction };  // rules 6 and 22
+enum class RasterReal : uint8_t { fp32, fp64 };  // arithmetic of depth interpolation (rule 5)
 
 // Id of a sample that no triangle covers.
 inline constexpr uint32_t kNoTriangle = 0xffffffffu;

@@ -11,6 +11,7 @@
 #include "numeric/narrow.h"
 #include "numeric/number.h"
 #include "raster/image.h"
+#include "raster/texture_unit.h"
 
 namespace etalon {
 

@@ -605,12 +605,12 @@ GroupMask TileRasterizerOfLevel::winding(std::span<const Piece> pieces, int64_t 
     return covered;
 }
 
-// storedDepth for formats that it computes something for, a register at a time: drivers' rounding in double.
+// storedDepth for formats that it computes something for, a register at a time: what is not exact, in double.
 template <class S, int N>
 [[gnu::always_inline]] inline Lanes<int32_t, N> storedByRegister(DepthFormat format, DepthRounding rounding,
                                                                  Lanes<S, N> z) {
     if constexpr (N > kNativeLanes<double> && N > 1) {
-        if (format != DepthFormat::d32f && (rounding == DepthRounding::driver || N > kNativeLanes<S>))
+        if (format != DepthFormat::d32f && (rounding != DepthRounding::exact || N > kNativeLanes<S>))
             return joinLanes(storedByRegister(format, rounding, lowerLanes(z)),
                              storedByRegister(format, rounding, upperLanes(z)));
     }

@@ -71,6 +71,20 @@ Arithmetic readArithmetic(const TableReader& reader, std::string_view key, const
     return base;
 }
 
+// A filter's rules that do not go together, at the key that asks for them or, where its base does, at another one.
+void checkFilter(const TableReader& reader, const Profile& profile) {
+    constexpr int kEnough = 53;  // double and truth
+    const int bits = profile.fragment.format                       ? profile.fragment.format->significandBits
+                     : profile.fragment.type() == NumberType::fp32 ? kFp32.significandBits
+                                                                   : kEnough;
+    const FilterFault fault = filterFault(profile.filterRule, profile.textureFractionBits, bits);
+    if (fault.field.empty()) return;
+    for (const std::string_view key : {fault.field, std::string_view("texture_fraction_bits"),
+                                       std::string_view("filter_weights"), std::string_view("fragment")})
+        if (reader.has(key))
+            reader.failKey(key, formatText("does not go with {}: {}", fault.field, fault.reason));
+}
+
 }  // namespace
 
 bool isProfileFile(std::string_view nameOrFile) { return nameOrFile.ends_with(".toml"); }
@@ -81,7 +95,8 @@ Profile readProfileFile(const std::filesystem::path& path) {
     const TableReader reader(
         file, document, "the profile",
         {"base", "fragment", "vertex", "depth", "depth_rounding", "subpixel_bits", "texture_fraction_bits",
-         "texture_filter", "environment", "depth_bias_unit", "volume_stencil"});
+         "texture_filter", "texture_format", "filter_position", "filter_weights", "filter_sum", "environment",
+         "depth_bias_unit", "volume_stencil"});
     const std::string base = reader.has("base") ? reader.choice("base", profileNames()) : "f32";
     Profile profile = *findProfile(base);
     profile.name = path.filename().string();
@@ -101,9 +116,14 @@ Profile readProfileFile(const std::filesystem::path& path) {
         }
     }
     read(reader, "texture_filter", profile.textureFilter);
+    read(reader, "texture_format", profile.filterRule.texels);
+    read(reader, "filter_position", profile.filterRule.position);
+    read(reader, "filter_weights", profile.filterRule.weights);
+    read(reader, "filter_sum", profile.filterRule.sum);
     profile.environment = readArithmetic(reader, "environment", profile.environment);
     read(reader, "depth_bias_unit", profile.biasUnit);
     read(reader, "volume_stencil", profile.volumeStencil);
+    checkFilter(reader, profile);
     return profile;
 }
 

@@ -16,7 +16,7 @@ constexpr double kLeastRadius_texels = 0.5;
 template <class T>
 class ShadowLookupOf final : public ShadowLookup {
   public:
-    ShadowLookupOf(const ShadowMap& map, int fractionBits, int threads, WindowSearch search);
+    ShadowLookupOf(const ShadowMap& map, const SamplerSettings& sampler, int threads, WindowSearch search);
     void find(const LitPoints& points, std::span<double> visibility) const override;
     uint64_t memory_bytes() const override {
         uint64_t bytes = buffers_.texels.memory_bytes();
@@ -36,7 +36,7 @@ class ShadowLookupOf final : public ShadowLookup {
         return discPattern(settings.taps, settings.seed);
     }
     void setSpace(const ShadowMap& map);
-    void setFilter(const ShadowMap& map, int fractionBits);
+    void setFilter(const ShadowMap& map, const SamplerSettings& sampler);
     void findByText(const LitPoints& points, std::span<double> visibility) const;
     [[gnu::flatten]] void findByTextFlattened(const LitPoints& points, std::span<double> visibility) const {
         findByText(points, visibility);
@@ -52,10 +52,11 @@ class ShadowLookupOf final : public ShadowLookup {
 };
 
 template <class T>
-ShadowLookupOf<T>::ShadowLookupOf(const ShadowMap& map, int fractionBits, int threads, WindowSearch search)
+ShadowLookupOf<T>::ShadowLookupOf(const ShadowMap& map, const SamplerSettings& sampler, int threads,
+                                  WindowSearch search)
     : buffers_{ShadowTexels<T>(map, threads), patternOf(map.settings), PatternTurns(map.settings.seed)} {
     setSpace(map);
-    setFilter(map, fractionBits);
+    setFilter(map, sampler);
     if constexpr (Number<T>::isNative)
         if (map.settings.filter == ShadowFilter::pcf && filter_.isQuantised == 0 &&
             search == WindowSearch::sideBySide)
@@ -89,12 +90,12 @@ void ShadowLookupOf<T>::setSpace(const ShadowMap& map) {
 }
 
 template <class T>
-void ShadowLookupOf<T>::setFilter(const ShadowMap& map, int fractionBits) {
+void ShadowLookupOf<T>::setFilter(const ShadowMap& map, const SamplerSettings& sampler) {
     const ShadowMapSettings& settings = map.settings;
     const ShadowProjection& p = map.projection;
     filter_.kind = static_cast<int>(settings.filter);
     filter_.taps = settings.taps;
-    filter_.fractionBits = fractionBits;
+    filter_.sampling = samplingOfAnySize<K>(sampler, p.width, p.width);
     filter_.isQuantised = buffers_.texels.levels() > 0 ? 1 : 0;
     filter_.holdsDistance = map.holdsDistance() ? 1 : 0;
     filter_.farthest = buffers_.texels.farthest();
@@ -160,9 +161,9 @@ void ShadowLookupOf<T>::findByText(const LitPoints& points, std::span<double> vi
 
 template <class T>
 constexpr LookupPasses kPassesOver<LookupPasses, T> = {
-    [](const ShadowMap& map, int fractionBits, int threads,
+    [](const ShadowMap& map, const SamplerSettings& sampler, int threads,
        WindowSearch search) -> std::unique_ptr<ShadowLookup> {
-        return std::make_unique<ShadowLookupOf<T>>(map, fractionBits, threads, search);
+        return std::make_unique<ShadowLookupOf<T>>(map, sampler, threads, search);
     }};
 template const LookupPasses& ETALON_LEVEL::passesOf<LookupPasses>(NumberType);
 

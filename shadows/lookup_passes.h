@@ -26,9 +26,9 @@ class ShadowLookup {
 enum class WindowSearch : uint8_t { sideBySide, text };
 
 struct LookupPasses {
-    // fractionBits: of pcf's weights, as in raster/sampler.h.
-    std::unique_ptr<ShadowLookup> (*makeLookup)(const ShadowMap& map, int fractionBits, int threads,
-                                                WindowSearch search);
+    // sampler: its fraction bits, and its rules of positions and weights, are those of pcf (raster/sampler.h).
+    std::unique_ptr<ShadowLookup> (*makeLookup)(const ShadowMap& map, const SamplerSettings& sampler,
+                                                int threads, WindowSearch search);
 };
 
 }  // namespace etalon

@@ -18,7 +18,7 @@ struct PlanarKernel {
 };
 
 template <class T>
-void planarVisibilityOver(const PlanarShadow& shadow, const PlanarSampling& sampling, const LitPoints& points,
+void planarVisibilityOver(const PlanarShadow& shadow, const SamplerSettings& sampler, const LitPoints& points,
                           std::span<const uint32_t> listed, std::span<double> visibility) {
     using Kernel = PlanarKernel<T>;
     using vec3 = typename Kernel::vec3;
@@ -33,9 +33,7 @@ void planarVisibilityOver(const PlanarShadow& shadow, const PlanarSampling& samp
     map.corner = number(shadow.grid.toWorld(0, 0));
     map.perColumn = perTexel(shadow.grid.frame.s);
     map.perRow = perTexel(shadow.grid.frame.t);
-    map.width = shadow.grid.width, map.height = shadow.grid.height;
-    map.filterMode = static_cast<int>(sampling.filter);
-    map.fractionBits = sampling.fractionBits;
+    map.sampling = samplingOfAnySize<Kernel>(sampler, shadow.grid.width, shadow.grid.height);
     forEachLaneGroup<Number<T>::lanes>(listed.size(), [&](size_t first, int active) {
         const auto listedOf = [&](std::span<const double> values) {
             return Number<T>::generate([&](int lane) {

@@ -8,16 +8,10 @@
 
 namespace etalon {
 
-// How a shadow texture is read.
-struct PlanarSampling {
-    Filter filter = Filter::bilinear;
-    int fractionBits = kExactFraction;
-};
-
 struct PlanarPasses {
     // Multiplies visibility[i] with what the shadow lets pass, for the points i that are listed; the others are
-    // left as they are. The shadow is not empty.
-    void (*visibility)(const PlanarShadow& shadow, const PlanarSampling& sampling, const LitPoints& points,
+    // left as they are. The shadow is not empty. sampler: how the shadow's texture is read; it is never wrapped.
+    void (*visibility)(const PlanarShadow& shadow, const SamplerSettings& sampler, const LitPoints& points,
                        std::span<const uint32_t> listed, std::span<double> visibility);
 };
 

@@ -9,14 +9,6 @@
 #include "shadows/composition_kernel.h"
 
 namespace etalon {
-namespace {
-
-PlanarSampling samplingOf(const Profile& profile) {
-    return {profile.textureFilter, profile.textureFractionBits};
-}
-
-}  // namespace
-
 PlanarVisibility::PlanarVisibility(std::vector<Entry> entries, const Profile& profile)
     : entries_(std::move(entries)), profile_(&profile) {}
 
@@ -35,7 +27,7 @@ void PlanarVisibility::find(size_t light, const LitPoints& points, std::span<dou
         listed.clear();
         for (uint32_t i = 0; i < points.size(); i++)
             if (points.instance[i] == entry.instance) listed.push_back(i);
-        passes->visibility(entry.shadow, samplingOf(*profile_), points, listed, visibility);
+        passes->visibility(entry.shadow, samplerOf(*profile_), points, listed, visibility);
     }
 }
 
@@ -66,7 +58,7 @@ Image<float> composeShadows(const PlanarReceiver& receiver, const PlanarGrid& gr
         CompositionKernel<double> kernel{shares, std::vector<double>(lights.size() * width, 1.0), width};
         for (size_t i = 0; i < lights.size(); i++)
             if (!lights[i].shadow->shadow.empty())
-                passes->visibility(*lights[i].shadow, samplingOf(profile), points, listed,
+                passes->visibility(*lights[i].shadow, samplerOf(profile), points, listed,
                                    std::span(kernel.visibility).subspan(i * width, width));
         for (size_t x = 0; x < width; x++) {
             kernel.texel = x;

@@ -82,6 +82,7 @@ ShadowMap renderShadowMap(const SurfaceScene& scene, const std::vector<PlacedMes
     ShadowMap map;
     map.settings = settings;
     map.projection = fit.projection;
+    map.depthRounding = profile.depthRounding;
     if (fit.casters.empty()) return map;
 
     RenderTargetFormat format;

@@ -132,8 +132,9 @@ struct ShadowLayer {
 struct ShadowMap {
     ShadowMapSettings settings;
     ShadowProjection projection;
-    std::vector<ShadowLayer> layers;  // none: every point is lit
-    uint64_t triangles = 0;           // submitted to the rasterizer, over all layers
+    std::vector<ShadowLayer> layers;                     // none: every point is lit
+    DepthRounding depthRounding = DepthRounding::exact;  // of what is stored
+    uint64_t triangles = 0;                              // submitted to the rasterizer, over all layers
 
     // linear and perspective: the texels are distances.
     bool holdsDistance() const { return settings.depth == ShadowDepth::linear && projection.isPerspective; }

@@ -12,9 +12,8 @@ void ShadowMaps::set(size_t light, ShadowMap map, const Profile& profile, int th
     entry.map.reset();
     if (map.layers.empty()) return;
     entry.map = std::make_unique<ShadowMap>(std::move(map));
-    entry.lookup =
-        passesIn<LookupPasses>(profile.fragment)
-            ->makeLookup(*entry.map, profile.textureFractionBits, threads, WindowSearch::sideBySide);
+    entry.lookup = passesIn<LookupPasses>(profile.fragment)
+                       ->makeLookup(*entry.map, samplerOf(profile), threads, WindowSearch::sideBySide);
     // The look-up has its own copy.
     for (ShadowLayer& layer : entry.map->layers) layer = {};
 }

@@ -71,6 +71,16 @@ class ShadowTexels {
             return select(most < atLeast, most, atLeast);
         }
     }
+    // The integer that a depth is written as by rule 22.
+    template <class S>
+    S written(const S& z) const {
+        const DepthFormat format =
+            levels_ == depthLevels(DepthFormat::d16) ? DepthFormat::d16 : DepthFormat::d24;
+        if constexpr (std::is_floating_point_v<S>)
+            return static_cast<S>(storedDepth(format, rounding_, Lanes<S, 1>(z))[0]);
+        else
+            return convertLanes<typename S::Scalar>(storedDepth(format, rounding_, z));
+    }
     void fill(const ShadowMap& map, size_t layer, int threads);
     bool fillUnorm(const ShadowMap& map, const uint32_t* stored, Stored* line) const;
 
@@ -79,6 +89,7 @@ class ShadowTexels {
     int width_, pad_;
     ptrdiff_t stride_;
     double levels_ = 0;
+    DepthRounding rounding_;
     T farthest_;
 };
 
@@ -87,7 +98,8 @@ ShadowTexels<T>::ShadowTexels(const ShadowMap& map, int threads)
     : layers_(map.layers.size()),
       width_(map.projection.width),
       pad_(2 * filterReach_texels(map.settings) + 2),
-      stride_(width_ + 2 * pad_ + N) {
+      stride_(width_ + 2 * pad_ + N),
+      rounding_(map.depthRounding) {
     if (map.settings.reference == ShadowReference::quantised && !map.holdsDistance())
         levels_ = depthLevels(map.format());
     constexpr double kBeyondEveryDistance = 0x1p+60;
@@ -187,11 +199,13 @@ T ShadowTexels<T>::at(const Integer& layer, const Integer& x, const Integer& y) 
     return Number<T>::loadKept(texels.data());
 }
 
-// In the scalar that the numbers are stored as, in which unormDepth is exact whatever the arithmetic.
+// In the scalar that the numbers are stored as, in which unormDepth and the writes of rule 22 are exact whatever the
+// arithmetic.
 template <class T>
 typename ShadowTexels<T>::Boolean ShadowTexels<T>::isBelowStored(const T& texel, const T& depth) const {
     const auto isBelow = [&](const auto& stored, const auto& z) {
         using Exact = std::decay_t<decltype(z)>;
+        if (rounding_ == DepthRounding::fixedFunction) return stored < written(z);
         RasterKernels<Exact> kernels;
         return stored < kernels.unormDepth(z, Exact(levels_));
     };

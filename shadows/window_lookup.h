@@ -94,7 +94,8 @@ class WindowLookup {
 
     const ShadowBuffers<T>& buffers_;
     const typename K::ShadowSpace& space_;
-    int taps_, fractionBits_;
+    int taps_;
+    typename K::Sampling sampling_;
     T farthest_;  // what a reference is limited to
     ptrdiff_t stride_;
     size_t blocksPerRow_;
@@ -110,7 +111,7 @@ WindowLookup<T>::WindowLookup(const ShadowBuffers<T>& buffers, const typename K:
     : buffers_(buffers),
       space_(space),
       taps_(settings.taps),
-      fractionBits_(settings.fractionBits),
+      sampling_(settings.sampling),
       farthest_(settings.farthest),
       stride_(buffers.texels.stride()) {
     const ShadowTexels<T>& texels = buffers.texels;
@@ -177,8 +178,8 @@ void WindowLookup<T>::place(const LitPoints& points, size_t first, size_t count,
         const vec3 position = load(points.position_m), normal = load(points.normal),
                    face = load(points.faceNormal);
         const typename K::ShadowPoint p = kernels.shadowPoint(space_, position, normal, face);
-        const typename K::TexelPair x = kernels.windowStart(p.u, taps_, fractionBits_);
-        const typename K::TexelPair y = kernels.windowStart(p.v, taps_, fractionBits_);
+        const typename K::TexelPair x = kernels.windowStart(p.u, taps_, sampling_);
+        const typename K::TexelPair y = kernels.windowStart(p.v, taps_, sampling_);
         const T centreU = kernels.firstCentre(p.u, x), centreV = kernels.firstCentre(p.v, y);
         const std::array<std::pair<const T*, Stored*>, 7> values = {{{&p.depth, places.depth.data()},
                                                                      {&p.perU, places.perU.data()},
@@ -330,7 +331,7 @@ void WindowLookup<T>::weigh(const Places& places, size_t count, std::span<double
             return Number<T>::load(&from[offset], active);
         };
         const T part = kernels.litPart(load(lit[0]), load(lit[1]), load(lit[2]), load(lit[3]),
-                                       load(places.fractionX), load(places.fractionY), taps_);
+                                       load(places.fractionX), load(places.fractionY), taps_, sampling_);
         for (int i = 0; i < active; i++) {
             const size_t at = offset + static_cast<size_t>(i);
             visibility[at] = places.layer[at] == kNoLayer ? 1.0 : numberLane(part, i);

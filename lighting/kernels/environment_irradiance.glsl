@@ -1,5 +1,7 @@
 // What the environment gives a plane, of everything that stands for it, for the outputs that show it alone.
 // needs: numeric/kernels/vector.glsl
+// needs: raster/kernels/texture_unit.glsl
+// needs: raster/kernels/tap_weights.glsl
 // needs: raster/kernels/texture_scope.glsl
 // needs: raster/kernels/sampler.glsl
 // needs: raster/kernels/cube_face.glsl

@@ -1,6 +1,8 @@
 // What lighting/kernels/environment_light.glsl reads, in GLSL. The C++ counterpart is EnvironmentLighting in
 // lighting/environment_lighting.h.
 // needs: numeric/kernels/vector.glsl
+// needs: raster/kernels/texture_unit.glsl
+// needs: raster/kernels/tap_weights.glsl
 // needs: raster/kernels/texture_scope.glsl
 // needs: raster/kernels/sampler.glsl
 // needs: raster/kernels/cube_face.glsl

@@ -1,7 +1,10 @@
 // The environment as it is seen: behind the scene and in mirrors.
 // needs: numeric/kernels/vector.glsl
+// needs: numeric/kernels/wide.glsl
 // needs: numeric/kernels/pair.glsl
 // needs: numeric/kernels/pair_atan2.glsl
+// needs: raster/kernels/texture_unit.glsl
+// needs: raster/kernels/tap_weights.glsl
 // needs: raster/kernels/texture_scope.glsl
 // needs: raster/kernels/sampler.glsl
 // needs: raster/kernels/cube_face.glsl

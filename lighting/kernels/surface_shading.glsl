@@ -3,8 +3,11 @@
 // [Karlsson2005, sec. 3.3]: ambient light times albedo, plus diffuse map times albedo, plus the specular lobe of each
 // light, plus reflective map times mirror reflectance.
 // needs: numeric/kernels/vector.glsl
+// needs: numeric/kernels/wide.glsl
 // needs: numeric/kernels/pair.glsl
 // needs: numeric/kernels/pair_pow.glsl
+// needs: raster/kernels/texture_unit.glsl
+// needs: raster/kernels/tap_weights.glsl
 // needs: raster/kernels/texture_scope.glsl
 // needs: raster/kernels/sampler.glsl
 // needs: raster/kernels/cube_face.glsl

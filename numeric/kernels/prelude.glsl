@@ -33,6 +33,9 @@ uint upperProduct(uint a, uint b) {
 #define significandOf(a) \
     packDouble2x32(uvec2(unpackDouble2x32(a).x, (unpackDouble2x32(a).y & 0x000FFFFFu) | 0x3FF00000u))
 #define powerOfTwo(k) packDouble2x32(uvec2(0u, uint(int(k) + 1023) << 20u))
+// The double of a float. A function, because a compiler that folds double(float(2.4)) may give the double 2.4; it is left out
+// of a shader that does not call it.
+double widened(float a) { return double(a); }
 // For the texts over pairs of floats (FloatTexts in numeric/elementary.h).
 #define bitsOf(a) floatBitsToInt(a)
 #define realFromBits(bits) intBitsToFloat(bits)

@@ -1,7 +1,10 @@
 // Texels of a cube map that shows a lat-long image. Specified in probes/latlong.h.
 // needs: numeric/kernels/vector.glsl
+// needs: numeric/kernels/wide.glsl
 // needs: numeric/kernels/pair.glsl
 // needs: numeric/kernels/pair_atan2.glsl
+// needs: raster/kernels/texture_unit.glsl
+// needs: raster/kernels/tap_weights.glsl
 // needs: raster/kernels/texture_scope.glsl
 // needs: raster/kernels/sampler.glsl
 // needs: raster/kernels/cube_face.glsl

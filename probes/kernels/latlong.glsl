@@ -1,6 +1,9 @@
 // Latitude-longitude images of the environment. Specified in probes/latlong.h.
+// needs: numeric/kernels/wide.glsl
 // needs: numeric/kernels/pair.glsl
 // needs: numeric/kernels/pair_atan2.glsl
+// needs: raster/kernels/texture_unit.glsl
+// needs: raster/kernels/tap_weights.glsl
 // needs: raster/kernels/texture_scope.glsl
 // needs: raster/kernels/sampler.glsl
 
@@ -33,8 +36,8 @@ struct LatLongTaps {
     real fractionY;
 };
 LatLongTaps latLongTaps(real u, real v, Sampling s) {
-    TexelPair x = texelPair(u * real(s.width) - real(0.5), s.fractionBits);
-    TexelPair y = texelPair(v * real(s.height) - real(0.5), s.fractionBits);
+    TexelPair x = texelsAround(u, s.width, s);
+    TexelPair y = texelsAround(v, s.height, s);
     // Columns repeat.
     int repeats = 1;
     integer x0 = wrapTexel(x.first, s.width, repeats);
@@ -60,11 +63,12 @@ LatLongTaps latLongTaps(real u, real v, Sampling s) {
 
 vec3 sampleLatLongAt(texture env, LatLongCoordinates c, Sampling s) {
     integer layer = integer(0);
-    if (s.filterMode == 0) return fetchRgb(env, layer, nearestTexel(c.u, s.width), nearestTexel(c.v, s.height));
+    if (s.filterMode == 0)
+        return storedRgb(fetchRgb(env, layer, nearestTexel(c.u, s.width, s), nearestTexel(c.v, s.height, s)), s);
     LatLongTaps taps = latLongTaps(c.u, c.v, s);
     RgbPair upper = fetchRgbPair(env, layer, taps.x00, taps.y0, layer, taps.x10, taps.y0);
     RgbPair lower = fetchRgbPair(env, layer, taps.x01, taps.y1, layer, taps.x11, taps.y1);
-    return bilinear3(upper.first, upper.second, lower.first, lower.second, taps.fractionX, taps.fractionY);
+    return filteredRgb(rgbTaps(upper, lower, s), taps.fractionX, taps.fractionY, s);
 }
 vec3 sampleLatLong(texture env, vec3 direction, Sampling s) {
     return sampleLatLongAt(env, latLongCoordinates(direction), s);

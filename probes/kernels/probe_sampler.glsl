@@ -1,7 +1,10 @@
 // Samples of a probe's images. Specified in probes/convert.h.
+// needs: numeric/kernels/wide.glsl
 // needs: numeric/kernels/pair.glsl
 // needs: numeric/kernels/pair_atan2.glsl
 // needs: numeric/kernels/pair_sine.glsl
+// needs: raster/kernels/texture_unit.glsl
+// needs: raster/kernels/tap_weights.glsl
 // needs: raster/kernels/texture_scope.glsl
 // needs: raster/kernels/sampler.glsl
 // needs: raster/kernels/cube_face.glsl
@@ -25,7 +28,7 @@ CubeTaps probeTaps(MappingPoint p, int mapping, Sampling s) {
         c.face = p.layer;
         c.s = p.u;
         c.t = p.v;
-        return cubeTaps(c, s.width, s.fractionBits);
+        return cubeTaps(c, s);
     }
     CubeTaps taps;
     boolean no = boolean(false);
@@ -43,8 +46,8 @@ CubeTaps probeTaps(MappingPoint p, int mapping, Sampling s) {
         taps.fractionY = t.fractionY;
         return taps;
     }
-    TexelPair x = texelPair(p.u * real(s.width) - real(0.5), s.fractionBits);
-    TexelPair y = texelPair(p.v * real(s.width) - real(0.5), s.fractionBits);
+    TexelPair x = texelsAround(p.u, s.width, s);
+    TexelPair y = texelsAround(p.v, s.width, s);
     integer x1 = x.first + integer(1);
     integer y1 = y.first + integer(1);
     taps.fractionX = x.fraction;
@@ -88,11 +91,14 @@ ProbeSample probeSample(vec3 rgb, boolean isShown) {
     r.isShown = isShown;
     return r;
 }
+ProbeSample shownOr(ProbeSample a, ProbeSample b) {
+    return probeSample(select3(a.isShown, a.rgb, b.rgb), a.isShown || b.isShown);
+}
 boolean isShownTexel(texture shown, CubeTexel t) { return fetchReal(shown, t.face, t.x, t.y) > real(0.5); }
 
 // The texel that holds a point.
 CubeTexel nearestProbeTexel(MappingPoint p, Sampling s) {
-    return cubeTexel(p.layer, nearestTexel(p.u, s.width), nearestTexel(p.v, s.height));
+    return cubeTexel(p.layer, nearestTexel(p.u, s.width, s), nearestTexel(p.v, s.height, s));
 }
 
 // A tap of a bilinear sample. The missing texel at the corner of a cube is the mean of the three others a, b and c, if
@@ -104,24 +110,52 @@ ProbeSample cornerSample(boolean isCorner, ProbeSample v, ProbeSample a, ProbeSa
 }
 
 // `shown` has 1 for texels with radiance and 0 for the others.
-ProbeSample tapSample(texture radiance, texture shown, CubeTexel t) {
-    return probeSample(fetchRgb(radiance, t.face, t.x, t.y), isShownTexel(shown, t));
+ProbeSample tapSample(texture radiance, texture shown, CubeTexel t, Sampling s) {
+    return probeSample(storedRgb(fetchRgb(radiance, t.face, t.x, t.y), s), isShownTexel(shown, t));
+}
+// Two taps; one that is not shown has become the other.
+struct ProbePair {
+    ProbeSample a;
+    ProbeSample b;
+};
+ProbePair filledPair(ProbeSample a, ProbeSample b) {
+    ProbePair pair;
+    pair.a = shownOr(a, b);
+    pair.b = shownOr(b, a);
+    return pair;
+}
+// Four taps by the rules of s: with 1-D weights one after the other, else with hidden taps replaced by their neighbours in
+// the row, and a hidden row by the other one.
+ProbeSample filterShown(ProbeSample v00, ProbeSample v10, ProbeSample v01, ProbeSample v11, real fractionX,
+                        real fractionY, Sampling s) {
+    if (s.weights == 0)
+        return lerpShown(lerpShown(v00, v10, fractionX), lerpShown(v01, v11, fractionX), fractionY);
+    ProbePair upper = filledPair(v00, v10);
+    ProbePair lower = filledPair(v01, v11);
+    ProbePair left = filledPair(upper.a, lower.a);
+    ProbePair right = filledPair(upper.b, lower.b);
+    RgbTaps taps;
+    taps.v00 = left.a.rgb;
+    taps.v10 = right.a.rgb;
+    taps.v01 = left.b.rgb;
+    taps.v11 = right.b.rgb;
+    return probeSample(filteredRgb(taps, fractionX, fractionY, s), left.a.isShown);
 }
 ProbeSample sampleMasked(texture radiance, texture shown, MappingPoint p, int mapping, Sampling s) {
     ProbeSample r;
     if (s.filterMode == 0) {
-        r = tapSample(radiance, shown, nearestProbeTexel(p, s));
+        r = tapSample(radiance, shown, nearestProbeTexel(p, s), s);
     } else {
         CubeTaps taps = probeTaps(p, mapping, s);
-        ProbeSample v00 = tapSample(radiance, shown, taps.t00);
-        ProbeSample v10 = tapSample(radiance, shown, taps.t10);
-        ProbeSample v01 = tapSample(radiance, shown, taps.t01);
-        ProbeSample v11 = tapSample(radiance, shown, taps.t11);
+        ProbeSample v00 = tapSample(radiance, shown, taps.t00, s);
+        ProbeSample v10 = tapSample(radiance, shown, taps.t10, s);
+        ProbeSample v01 = tapSample(radiance, shown, taps.t01, s);
+        ProbeSample v11 = tapSample(radiance, shown, taps.t11, s);
         ProbeSample c00 = cornerSample(taps.corner00, v00, v10, v01, v11);
         ProbeSample c10 = cornerSample(taps.corner10, v10, v00, v01, v11);
         ProbeSample c01 = cornerSample(taps.corner01, v01, v00, v10, v11);
         ProbeSample c11 = cornerSample(taps.corner11, v11, v00, v10, v01);
-        r = lerpShown(lerpShown(c00, c10, taps.fractionX), lerpShown(c01, c11, taps.fractionX), taps.fractionY);
+        r = filterShown(c00, c10, c01, c11, taps.fractionX, taps.fractionY, s);
     }
     r.isShown = r.isShown && p.isShown;
     return r;
@@ -131,7 +165,7 @@ ProbeSample sampleMasked(texture radiance, texture shown, MappingPoint p, int ma
 vec3 sampleWhole(texture radiance, MappingPoint p, int mapping, Sampling s) {
     if (s.filterMode == 0) {
         CubeTexel t = nearestProbeTexel(p, s);
-        return fetchRgb(radiance, t.face, t.x, t.y);
+        return storedRgb(fetchRgb(radiance, t.face, t.x, t.y), s);
     }
     if (mapping == 1) {
         CubeCoordinates c;
@@ -143,7 +177,7 @@ vec3 sampleWhole(texture radiance, MappingPoint p, int mapping, Sampling s) {
     CubeTaps t = probeTaps(p, mapping, s);
     RgbPair upper = fetchRgbPair(radiance, t.t00.face, t.t00.x, t.t00.y, t.t10.face, t.t10.x, t.t10.y);
     RgbPair lower = fetchRgbPair(radiance, t.t01.face, t.t01.x, t.t01.y, t.t11.face, t.t11.x, t.t11.y);
-    return bilinear3(upper.first, upper.second, lower.first, lower.second, t.fractionX, t.fractionY);
+    return filteredRgb(rgbTaps(upper, lower, s), t.fractionX, t.fractionY, s);
 }
 
 // What a source of a mapping is sampled with. Within the radius `whole` of a disc all texels of a bilinear sample are
@@ -189,9 +223,6 @@ vec3 turned(vec3 d, vec3 rowX, vec3 rowY, vec3 rowZ) {
 }
 
 real asNumber(boolean c) { return select(c, real(1.0), real(0.0)); }
-ProbeSample shownOr(ProbeSample a, ProbeSample b) {
-    return probeSample(select3(a.isShown, a.rgb, b.rgb), a.isShown || b.isShown);
-}
 // Black and not shown where it is not shown or isOnImage is 0.
 ProbeSample blackIfHidden(ProbeSample a, real isOnImage) {
     boolean isShown = a.isShown && isOnImage > real(0.5);

@@ -1,7 +1,10 @@
 // A texel of a probe that is converted, part by part. Specified in probes/convert.h.
+// needs: numeric/kernels/wide.glsl
 // needs: numeric/kernels/pair.glsl
 // needs: numeric/kernels/pair_atan2.glsl
 // needs: numeric/kernels/pair_sine.glsl
+// needs: raster/kernels/texture_unit.glsl
+// needs: raster/kernels/tap_weights.glsl
 // needs: raster/kernels/texture_scope.glsl
 // needs: raster/kernels/sampler.glsl
 // needs: raster/kernels/cube_face.glsl

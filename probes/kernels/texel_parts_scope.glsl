@@ -1,9 +1,12 @@
 // What probes/kernels/texel_parts.glsl reads, in GLSL: numbers of all columns' and then all rows' parts in a buffer, two
 // each (sine and cosine, or u or v), made in double and rounded once; solid angles of the parts of a row of texels; the
 // source. An invocation is a texel. The C++ counterpart is ConversionKernel in probes/laned_directions.h.
+// needs: numeric/kernels/wide.glsl
 // needs: numeric/kernels/pair.glsl
 // needs: numeric/kernels/pair_atan2.glsl
 // needs: numeric/kernels/pair_sine.glsl
+// needs: raster/kernels/texture_unit.glsl
+// needs: raster/kernels/tap_weights.glsl
 // needs: raster/kernels/texture_scope.glsl
 // needs: raster/kernels/sampler.glsl
 // needs: raster/kernels/cube_face.glsl

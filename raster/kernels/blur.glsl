@@ -1,4 +1,6 @@
 // One pixel of one pass of the separable blur. Specified in raster/blur.h.
+// needs: raster/kernels/texture_unit.glsl
+// needs: raster/kernels/tap_weights.glsl
 // needs: raster/kernels/texture_scope.glsl
 // needs: raster/kernels/blur_scope.glsl
 

@@ -1,4 +1,6 @@
 // Cube-map faces: direction to face and back, and seamless sampling. Specified in raster/cube_face.h.
+// needs: raster/kernels/texture_unit.glsl
+// needs: raster/kernels/tap_weights.glsl
 // needs: raster/kernels/texture_scope.glsl
 // needs: raster/kernels/sampler.glsl
 
@@ -133,9 +135,10 @@ CubeTexel cubeTexel(integer face, integer x, integer y) {
     t.y = y;
     return t;
 }
-CubeTaps cubeTaps(CubeCoordinates c, int size, int fractionBits) {
-    TexelPair x = texelPair(c.s * real(size) - real(0.5), fractionBits);
-    TexelPair y = texelPair(c.t * real(size) - real(0.5), fractionBits);
+CubeTaps cubeTaps(CubeCoordinates c, Sampling s) {
+    int size = s.width;
+    TexelPair x = texelsAround(c.s, size, s);
+    TexelPair y = texelsAround(c.t, size, s);
     integer x1 = x.first + integer(1);
     integer y1 = y.first + integer(1);
     boolean leftOut = lessInteger(x.first, integer(0));
@@ -168,43 +171,39 @@ CubeTaps cubeTaps(CubeCoordinates c, int size, int fractionBits) {
 }
 
 real sampleCubeReal(texture cube, vec3 direction, Sampling s) {
-    CubeCoordinates c = cubeCoordinates(direction);
+    CubeCoordinates at = cubeCoordinates(direction);
     if (s.filterMode == 0)
-        return fetchReal(cube, c.face, nearestTexel(c.s, s.width), nearestTexel(c.t, s.width));
-    CubeTaps taps = cubeTaps(c, s.width, s.fractionBits);
-    real v00 = fetchReal(cube, taps.t00.face, taps.t00.x, taps.t00.y);
-    real v10 = fetchReal(cube, taps.t10.face, taps.t10.x, taps.t10.y);
-    real v01 = fetchReal(cube, taps.t01.face, taps.t01.x, taps.t01.y);
-    real v11 = fetchReal(cube, taps.t11.face, taps.t11.x, taps.t11.y);
-    real c00 = select(taps.corner00, meanOfThree(v10, v01, v11), v00);
-    real c10 = select(taps.corner10, meanOfThree(v00, v01, v11), v10);
-    real c01 = select(taps.corner01, meanOfThree(v00, v10, v11), v01);
-    real c11 = select(taps.corner11, meanOfThree(v00, v10, v01), v11);
-    return bilinear(c00, c10, c01, c11, taps.fractionX, taps.fractionY);
+        return storedReal(fetchReal(cube, at.face, nearestTexel(at.s, s.width, s), nearestTexel(at.t, s.width, s)), s);
+    CubeTaps taps = cubeTaps(at, s);
+    RealTaps v = realTaps(fetchReal(cube, taps.t00.face, taps.t00.x, taps.t00.y),
+                          fetchReal(cube, taps.t10.face, taps.t10.x, taps.t10.y),
+                          fetchReal(cube, taps.t01.face, taps.t01.x, taps.t01.y),
+                          fetchReal(cube, taps.t11.face, taps.t11.x, taps.t11.y), s);
+    RealTaps c;
+    c.v00 = select(taps.corner00, meanOfThree(v.v10, v.v01, v.v11), v.v00);
+    c.v10 = select(taps.corner10, meanOfThree(v.v00, v.v01, v.v11), v.v10);
+    c.v01 = select(taps.corner01, meanOfThree(v.v00, v.v10, v.v11), v.v01);
+    c.v11 = select(taps.corner11, meanOfThree(v.v00, v.v10, v.v01), v.v11);
+    return filtered(c, taps.fractionX, taps.fractionY, s);
 }
 
 // At face coordinates.
 vec3 sampleCubeRgbAt(texture cube, CubeCoordinates c, Sampling s) {
     if (s.filterMode == 0)
-        return fetchRgb(cube, c.face, nearestTexel(c.s, s.width), nearestTexel(c.t, s.width));
-    CubeTaps taps = cubeTaps(c, s.width, s.fractionBits);
+        return storedRgb(fetchRgb(cube, c.face, nearestTexel(c.s, s.width, s), nearestTexel(c.t, s.width, s)), s);
+    CubeTaps taps = cubeTaps(c, s);
     RgbPair upper = fetchRgbPair(cube, taps.t00.face, taps.t00.x, taps.t00.y, taps.t10.face, taps.t10.x, taps.t10.y);
     RgbPair lower = fetchRgbPair(cube, taps.t01.face, taps.t01.x, taps.t01.y, taps.t11.face, taps.t11.x, taps.t11.y);
-    vec3 v00 = upper.first;
-    vec3 v10 = upper.second;
-    vec3 v01 = lower.first;
-    vec3 v11 = lower.second;
+    RgbTaps v = rgbTaps(upper, lower, s);
     if (isAny(taps.corner00 || taps.corner10 || taps.corner01 || taps.corner11)) {
-        vec3 c00 = select3(taps.corner00, meanOfThree3(v10, v01, v11), v00);
-        vec3 c10 = select3(taps.corner10, meanOfThree3(v00, v01, v11), v10);
-        vec3 c01 = select3(taps.corner01, meanOfThree3(v00, v10, v11), v01);
-        vec3 c11 = select3(taps.corner11, meanOfThree3(v00, v10, v01), v11);
-        v00 = c00;
-        v10 = c10;
-        v01 = c01;
-        v11 = c11;
+        RgbTaps filled;
+        filled.v00 = select3(taps.corner00, meanOfThree3(v.v10, v.v01, v.v11), v.v00);
+        filled.v10 = select3(taps.corner10, meanOfThree3(v.v00, v.v01, v.v11), v.v10);
+        filled.v01 = select3(taps.corner01, meanOfThree3(v.v00, v.v10, v.v11), v.v01);
+        filled.v11 = select3(taps.corner11, meanOfThree3(v.v00, v.v10, v.v01), v.v11);
+        v = filled;
     }
-    return bilinear3(v00, v10, v01, v11, taps.fractionX, taps.fractionY);
+    return filteredRgb(v, taps.fractionX, taps.fractionY, s);
 }
 vec3 sampleCubeRgb(texture cube, vec3 direction, Sampling s) {
     return sampleCubeRgbAt(cube, cubeCoordinates(direction), s);

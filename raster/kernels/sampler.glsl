@@ -1,8 +1,11 @@
 // Nearest and bilinear sampling of one image. Specified in raster/sampler.h.
+// needs: raster/kernels/texture_unit.glsl
+// needs: raster/kernels/tap_weights.glsl
 // needs: raster/kernels/texture_scope.glsl
 
 // Constants of raster/sampler.h: filter 0 nearest, 1 bilinear; wrap 0 clamp, 1 repeat, 2 mirror.
-// fractionBits < 0: exact fractions.
+// fractionBits < 0: exact fractions. position, weights and sum: 0 for the rules of this text, 1 for those of
+// raster/texture_unit.h; texels: what textures hold, 0 as they are, 1 half, 2 and 3 of 16 and 8 bits.
 struct Sampling {
     int width;
     int height;
@@ -10,6 +13,10 @@ struct Sampling {
     int wrapX;
     int wrapY;
     int fractionBits;
+    int position;
+    int weights;
+    int sum;
+    int texels;
 };
 
 // The two texels around a position on one axis: index of the left one (or upper one), weight of the next one.
@@ -30,13 +37,17 @@ real foldCoordinate(real u, int wrap) {
     return clampOf(folded, real(0.0), real(1.0));
 }
 
-// Index of the texel next to [0, size - 1] brought back inside. Mirroring repeats the border texel, as
-// clamping.
+// Index of the texel next to [0, size - 1] brought back inside; mirroring, of [-1, 2 size]. Mirroring repeats the border
+// texel, as clamping.
 integer wrapTexel(integer i, int size, int wrap) {
     integer inside = i;
     if (wrap == 1) {
         inside = selectInteger(lessInteger(i, integer(0)), i + integer(size), i);
         inside = selectInteger(lessInteger(i, integer(size)), inside, i - integer(size));
+    }
+    if (wrap == 2) {
+        int last = 2 * size - 1;
+        inside = selectInteger(lessInteger(i, integer(size)), i, integer(last) - i);
     }
     return clampInteger(inside, integer(0), integer(size - 1));
 }
@@ -79,9 +90,66 @@ vec3 bilinear3(vec3 v00, vec3 v10, vec3 v01, vec3 v11, real fractionX, real frac
     return lerpInside3(lerpInside3(v00, v10, fractionX), lerpInside3(v01, v11, fractionX), fractionY);
 }
 
-// The index of the texel that holds a folded coordinate.
-integer nearestTexel(real folded, int size) {
-    return clampInteger(toInteger(floor(folded * real(size))), integer(0), integer(size - 1));
+// Four texels by the rules of s.
+real filtered(RealTaps t, real fractionX, real fractionY, Sampling s) {
+    if (s.weights == 1) return unitFiltered(t, fractionX, fractionY, s.sum, s.texels);
+    return bilinear(t.v00, t.v10, t.v01, t.v11, fractionX, fractionY);
+}
+vec3 filteredRgb(RgbTaps t, real fractionX, real fractionY, Sampling s) {
+    if (s.weights == 1) return unitFilteredRgb(t, fractionX, fractionY, s.sum, s.texels);
+    return bilinear3(t.v00, t.v10, t.v01, t.v11, fractionX, fractionY);
+}
+
+// Texels as the format of s holds them.
+real storedReal(real v, Sampling s) {
+    if (s.texels == 0) return v;
+    return unitWritten(v, s.texels);
+}
+vec3 storedRgb(vec3 v, Sampling s) {
+    if (s.texels == 0) return v;
+    return unitWrittenRgb(v, s.texels);
+}
+RealTaps realTaps(real v00, real v10, real v01, real v11, Sampling s) {
+    RealTaps t = realTapsOf(v00, v10, v01, v11);
+    if (s.texels == 0) return t;
+    return unitWrittenTaps(t, s.texels);
+}
+RgbTaps rgbTaps(RgbPair upper, RgbPair lower, Sampling s) {
+    RgbTaps t;
+    t.v00 = upper.first;
+    t.v10 = upper.second;
+    t.v01 = lower.first;
+    t.v11 = lower.second;
+    if (s.texels == 0) return t;
+    return unitWrittenRgbTaps(t, s.texels);
+}
+
+// The two texels around a coordinate by the texture unit; wrap 3: of a coordinate that is not folded.
+TexelPair unitTexelPair(real u, int size, int wrap) {
+    UnitTexel texel = unitTexel(u, size, wrap);
+    TexelPair pair;
+    pair.first = texel.first;
+    pair.fraction = texel.fraction;
+    return pair;
+}
+// The two texels around a coordinate inside [0, 1] on an axis of `size` texels, before they are wrapped, and the texel
+// that holds it.
+TexelPair texelsAround(real u, int size, Sampling s) {
+    if (s.position == 1) return unitTexelPair(u, size, 0);
+    return texelPair(u * real(size) - real(0.5), s.fractionBits);
+}
+integer nearestTexel(real u, int size, Sampling s) {
+    if (s.position == 1) return wrapTexel(unitNearestTexel(u, size, 0), size, 0);
+    return clampInteger(toInteger(floor(u * real(size))), integer(0), integer(size - 1));
+}
+// The same of any coordinate.
+TexelPair texelsAroundWrapped(real u, int size, int wrap, Sampling s) {
+    if (s.position == 1) return unitTexelPair(u, size, wrap);
+    return texelsAround(foldCoordinate(u, wrap), size, s);
+}
+integer nearestTexelWrapped(real u, int size, int wrap, Sampling s) {
+    if (s.position == 1) return wrapTexel(unitNearestTexel(u, size, wrap), size, wrap);
+    return nearestTexel(foldCoordinate(u, wrap), size, s);
 }
 
 // The four texels of a bilinear sample and the weights of the right and lower ones.
@@ -94,10 +162,9 @@ struct ImageTaps {
     real fractionY;
 };
 
-// u and v folded.
 ImageTaps imageTaps(real u, real v, Sampling s) {
-    TexelPair x = texelPair(u * real(s.width) - real(0.5), s.fractionBits);
-    TexelPair y = texelPair(v * real(s.height) - real(0.5), s.fractionBits);
+    TexelPair x = texelsAroundWrapped(u, s.width, s.wrapX, s);
+    TexelPair y = texelsAroundWrapped(v, s.height, s.wrapY, s);
     ImageTaps taps;
     taps.x0 = wrapTexel(x.first, s.width, s.wrapX);
     taps.x1 = wrapTexel(x.first + integer(1), s.width, s.wrapX);
@@ -109,22 +176,23 @@ ImageTaps imageTaps(real u, real v, Sampling s) {
 }
 
 real sampleReal(texture t, integer layer, real u, real v, Sampling s) {
-    real foldedU = foldCoordinate(u, s.wrapX);
-    real foldedV = foldCoordinate(v, s.wrapY);
     if (s.filterMode == 0)
-        return fetchReal(t, layer, nearestTexel(foldedU, s.width), nearestTexel(foldedV, s.height));
-    ImageTaps p = imageTaps(foldedU, foldedV, s);
-    return bilinear(fetchReal(t, layer, p.x0, p.y0), fetchReal(t, layer, p.x1, p.y0), fetchReal(t, layer, p.x0, p.y1),
-                    fetchReal(t, layer, p.x1, p.y1), p.fractionX, p.fractionY);
+        return storedReal(fetchReal(t, layer, nearestTexelWrapped(u, s.width, s.wrapX, s),
+                                    nearestTexelWrapped(v, s.height, s.wrapY, s)),
+                          s);
+    ImageTaps p = imageTaps(u, v, s);
+    RealTaps taps = realTaps(fetchReal(t, layer, p.x0, p.y0), fetchReal(t, layer, p.x1, p.y0),
+                             fetchReal(t, layer, p.x0, p.y1), fetchReal(t, layer, p.x1, p.y1), s);
+    return filtered(taps, p.fractionX, p.fractionY, s);
 }
 
 vec3 sampleRgb(texture t, integer layer, real u, real v, Sampling s) {
-    real foldedU = foldCoordinate(u, s.wrapX);
-    real foldedV = foldCoordinate(v, s.wrapY);
     if (s.filterMode == 0)
-        return fetchRgb(t, layer, nearestTexel(foldedU, s.width), nearestTexel(foldedV, s.height));
-    ImageTaps p = imageTaps(foldedU, foldedV, s);
+        return storedRgb(fetchRgb(t, layer, nearestTexelWrapped(u, s.width, s.wrapX, s),
+                                  nearestTexelWrapped(v, s.height, s.wrapY, s)),
+                         s);
+    ImageTaps p = imageTaps(u, v, s);
     RgbPair upper = fetchRgbPair(t, layer, p.x0, p.y0, layer, p.x1, p.y0);
     RgbPair lower = fetchRgbPair(t, layer, p.x0, p.y1, layer, p.x1, p.y1);
-    return bilinear3(upper.first, upper.second, lower.first, lower.second, p.fractionX, p.fractionY);
+    return filteredRgb(rgbTaps(upper, lower, s), p.fractionX, p.fractionY, s);
 }

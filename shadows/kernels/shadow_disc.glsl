@@ -1,6 +1,8 @@
 // Filters of shadow maps over a disc: of one radius, and of the radius that blockers and the light's size make.
 // Specified in shadows/shadow_map.h.
 // needs: numeric/kernels/vector.glsl
+// needs: raster/kernels/texture_unit.glsl
+// needs: raster/kernels/tap_weights.glsl
 // needs: raster/kernels/texture_scope.glsl
 // needs: raster/kernels/sampler.glsl
 // needs: raster/kernels/cube_face.glsl

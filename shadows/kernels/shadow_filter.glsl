@@ -1,6 +1,8 @@
 // What the texels around a point say about its light: one texel, or the windows of percentage-closer filtering.
 // Specified in shadows/shadow_map.h.
 // needs: numeric/kernels/vector.glsl
+// needs: raster/kernels/texture_unit.glsl
+// needs: raster/kernels/tap_weights.glsl
 // needs: raster/kernels/texture_scope.glsl
 // needs: raster/kernels/sampler.glsl
 // needs: raster/kernels/cube_face.glsl
@@ -12,7 +14,7 @@
 struct PointFilter {
     int kind;           // 0 hard, 1 pcf, 2 disc, 3 soft
     int taps;           // pcf: along an edge; disc, soft: in all
-    int fractionBits;   // of pcf's weights
+    Sampling sampling;  // of a layer; its position, fraction bits and weights are those of pcf
     int isQuantised;    // texels are stored integers, and depths turn into such before they are compared
     int holdsDistance;  // texels are distances
     real farthest;      // what a reference is limited to
@@ -35,16 +37,25 @@ boolean isInTheWay(PointFilter f, real texel, real reference) {
 
 // A window of taps x taps points, one texel apart, around a position on one axis: the first of its taps + 1 texels, and
 // the weight of the last one; the first has one minus that, those between have one.
-TexelPair windowStart(real position, int taps, int fractionBits) {
-    return texelPair(position - real(taps) * real(0.5), fractionBits);
+// By the texture unit the first of the taps has position (taps - 1) / 2 texels before, as a coordinate.
+TexelPair windowStart(real position, int taps, Sampling s) {
+    if (s.position == 0) return texelPair(position - real(taps) * real(0.5), s.fractionBits);
+    return unitTexelPair((position - real(taps - 1) * real(0.5)) / real(s.width), s.width, 3);
 }
 // From the position to the centre of the window's first texel.
 real firstCentre(real position, TexelPair start) { return (toReal(start.first) + real(0.5)) - position; }
 
 // hard: the texel that the point falls into, as a window of one point without fractions.
+TexelPair texelOf(real position, Sampling s) {
+    if (s.position == 0) return texelPair(position - real(0.5), 0);
+    TexelPair pair;
+    pair.first = unitNearestTexel(position / real(s.width), s.width, 3);
+    pair.fraction = real(0.0);
+    return pair;
+}
 real litOfTexel(PointFilter f, ShadowPoint p) {
-    TexelPair x = windowStart(p.u, 1, 0);
-    TexelPair y = windowStart(p.v, 1, 0);
+    TexelPair x = texelOf(p.u, f.sampling);
+    TexelPair y = texelOf(p.v, f.sampling);
     real reference =
         referenceDepth(p.depth, p.perU, p.perV, firstCentre(p.u, x), firstCentre(p.v, y), f.farthest);
     real texel = shadowTexel(p.layer, x.first, y.first);
@@ -84,15 +95,18 @@ LitTexels litTexels(PointFilter f, ShadowPoint p, TexelPair x, TexelPair y) {
 
 // The mean of the bilinearly weighted comparisons, from the numbers of litTexels: compare first, weight after. Exactly
 // 1 where all are lit.
-real litPart(real lit00, real lit10, real lit01, real lit11, real fractionX, real fractionY, int taps) {
-    return bilinear(lit00, lit10, lit01, lit11, fractionX, fractionY) / real(taps * taps);
+real litPart(real lit00, real lit10, real lit01, real lit11, real fractionX, real fractionY, int taps, Sampling s) {
+    real lit = bilinear(lit00, lit10, lit01, lit11, fractionX, fractionY);
+    // In the arithmetic, of numbers as they are.
+    if (s.weights == 1) lit = unitFiltered(realTapsOf(lit00, lit10, lit01, lit11), fractionX, fractionY, 0, 0);
+    return lit / real(taps * taps);
 }
 
 // pcf.
 real litOfWindow(PointFilter f, ShadowPoint p) {
-    TexelPair x = windowStart(p.u, f.taps, f.fractionBits);
-    TexelPair y = windowStart(p.v, f.taps, f.fractionBits);
+    TexelPair x = windowStart(p.u, f.taps, f.sampling);
+    TexelPair y = windowStart(p.v, f.taps, f.sampling);
     LitTexels lit = litTexels(f, p, x, y);
     return litPart(toReal(lit.at00), toReal(lit.at10), toReal(lit.at01), toReal(lit.at11), x.fraction, y.fraction,
-                   f.taps);
+                   f.taps, f.sampling);
 }

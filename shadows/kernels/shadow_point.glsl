@@ -1,5 +1,7 @@
 // From a point of a surface to the texels of a shadow map. Specified in shadows/shadow_map.h.
 // needs: numeric/kernels/vector.glsl
+// needs: raster/kernels/texture_unit.glsl
+// needs: raster/kernels/tap_weights.glsl
 // needs: raster/kernels/texture_scope.glsl
 // needs: raster/kernels/sampler.glsl
 // needs: raster/kernels/cube_face.glsl

@@ -1,5 +1,7 @@
 // The part of a light that reaches a point by the light's shadow map. Specified in shadows/shadow_map.h.
 // needs: numeric/kernels/vector.glsl
+// needs: raster/kernels/texture_unit.glsl
+// needs: raster/kernels/tap_weights.glsl
 // needs: raster/kernels/texture_scope.glsl
 // needs: raster/kernels/sampler.glsl
 // needs: raster/kernels/cube_face.glsl

@@ -9,7 +9,8 @@ import cli_case
 from cli_case import CliCase, pfm
 
 SCENES = None
-NAMES = ["f32", "f64", "truth", "d3d11", "vulkan-min", "nv40-fp32", "nv40-fp16", "r300-fp24", "fp16", "bf16"]
+NAMES = ["f32", "f64", "truth", "d3d11", "vulkan-min", "nvidia", "nv40-fp32", "nv40-fp16", "r300-fp24", "fp16",
+         "bf16"]
 SCENE = """
 [camera]
 width = 32

@@ -108,7 +108,7 @@ Drawing takeDrawing(fuzz::ByteReader& bytes) {
     d.format.samples = bytes.pick(kSamples);
     d.format.subpixelBits = bytes.integer(4, 8);
     d.format.depth = takeEnum(bytes, DepthFormat::d32f);
-    d.format.depthRounding = takeEnum(bytes, DepthRounding::driver);
+    d.format.depthRounding = takeEnum(bytes, DepthRounding::fixedFunction);
     d.format.real = takeEnum(bytes, RasterReal::fp64);
     const int draws = bytes.integer(1, kMaxDraws);
     for (int i = 0; i < draws; i++) d.draws.push_back(takeDraw(bytes));

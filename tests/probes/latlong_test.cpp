@@ -111,8 +111,8 @@ TEST_CASE("TexelDirectionsMapBackToTheirTexel") {
         for (int y = 0; y < height; y++)
             for (int x = 0; x < width; x++) {
                 const auto c = kernel.latLongCoordinates(glm::vec<3, float>(grid.direction(x, y)));
-                REQUIRE(kernel.nearestTexel(c.u, width) == x);
-                REQUIRE(kernel.nearestTexel(c.v, height) == y);
+                REQUIRE(kernel.nearestTexel(c.u, width, {}) == x);
+                REQUIRE(kernel.nearestTexel(c.v, height, {}) == y);
             }
     }
 }

@@ -137,8 +137,8 @@ TEST_CASE("TexelDirectionsAreUnitsInsideTheirTexel") {
                     if (isDisc(shape.mapping) && cx * cx + cy * cy >= 1) continue;
                     const auto p = kernel.mappingPoint(d, settings);
                     REQUIRE(p.layer == layer);
-                    REQUIRE(kernel.nearestTexel(p.u, shape.width) == x);
-                    REQUIRE(kernel.nearestTexel(p.v, shape.height) == y);
+                    REQUIRE(kernel.nearestTexel(p.u, shape.width, {}) == x);
+                    REQUIRE(kernel.nearestTexel(p.v, shape.height, {}) == y);
                 }
     }
 }

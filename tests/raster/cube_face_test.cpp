@@ -162,8 +162,8 @@ TEST_CASE("EveryTexelCentreMapsBackToItsTexel") {
                     for (float scale : {1.0f, 0.37f, 1000.1f}) {
                         const FacePoint<float> p = mapped(d * scale);
                         REQUIRE(p.face == face);
-                        REQUIRE(kernel.nearestTexel(p.s, size) == x);
-                        REQUIRE(kernel.nearestTexel(p.t, size) == y);
+                        REQUIRE(kernel.nearestTexel(p.s, size, {}) == x);
+                        REQUIRE(kernel.nearestTexel(p.t, size, {}) == y);
                     }
                 }
 }

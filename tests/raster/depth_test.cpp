@@ -66,6 +66,8 @@ TEST_CASE("DepthConversionIsExact") {
             wrong += mismatches(std::bit_cast<float>(bits), format, DepthRounding::exact);
         for (uint32_t bits = 0; bits <= one; bits += 997)
             wrong += mismatches(std::bit_cast<float>(bits), format, DepthRounding::driver);
+        for (uint32_t bits = 0; bits <= one; bits += 499)
+            wrong += mismatches(std::bit_cast<float>(bits), format, DepthRounding::fixedFunction);
         CHECK(wrong == 0);
         // Outside of [0, 1], and the ends.
         for (double z : {-1.0, -0x1p-30, -0.0, 0.0, 0x1p-149, 0x1p-1000, 1 - 0x1p-53, 1.0, 1 + 0x1p-52, 3e30})
@@ -91,7 +93,8 @@ TEST_CASE("DrawnDepthIsTheConvertedDepth") {
     Random random(3);
     for (DepthFormat format : kFormats)
         for (RasterReal real : {RasterReal::fp32, RasterReal::fp64})
-            for (DepthRounding rounding : {DepthRounding::exact, DepthRounding::driver}) {
+            for (DepthRounding rounding :
+                 {DepthRounding::exact, DepthRounding::driver, DepthRounding::fixedFunction}) {
                 std::vector<ClipVertex> vertices;
                 std::vector<double> z;
                 const double levels = format == DepthFormat::d16 ? 65535 : 16777215;

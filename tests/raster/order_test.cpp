@@ -85,7 +85,7 @@ RenderTargetFormat randomFormat(Random& random, std::initializer_list<int> sampl
     format.depth = anyOf(random, DepthFormat::d32f);
     format.real = anyOf(random, RasterReal::fp64);
     format.depthRounding =
-        format.real == RasterReal::fp32 ? anyOf(random, DepthRounding::driver) : DepthRounding::exact;
+        format.real == RasterReal::fp32 ? anyOf(random, DepthRounding::fixedFunction) : DepthRounding::exact;
     format.biasUnit = anyOf(random, BiasUnit::driver);
     return format;
 }

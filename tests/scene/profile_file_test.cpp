@@ -45,7 +45,8 @@ bool sameChoices(const Profile& a, const Profile& b) {
     return a.fragment == b.fragment && a.vertex == b.vertex && a.depth == b.depth &&
            a.depthRounding == b.depthRounding && a.subpixelBits == b.subpixelBits &&
            a.textureFractionBits == b.textureFractionBits && a.textureFilter == b.textureFilter &&
-           a.environment == b.environment && a.volumeStencil == b.volumeStencil && a.biasUnit == b.biasUnit;
+           a.environment == b.environment && a.volumeStencil == b.volumeStencil && a.biasUnit == b.biasUnit &&
+           a.filterRule == b.filterRule;
 }
 
 }  // namespace
@@ -59,11 +60,13 @@ depth_rounding = "driver"
 subpixel_bits = 5
 texture_fraction_bits = 3
 texture_filter = "nearest"
+texture_format = "half"
+filter_sum = "fixed-function"
 environment = "fp16"
 volume_stencil = "exact"
 depth_bias_unit = "driver"
 [fragment]
-significand_bits = 12
+significand_bits = 24
 min_exponent = -20
 max_exponent = 31
 rounding = "stochastic"
@@ -74,7 +77,7 @@ power = "exp2log2"
 seed = 99
 )");
     CHECK(profile.name == "own.toml");
-    const Format expected{12,
+    const Format expected{24,
                           -20,
                           31,
                           Rounding::stochastic,
@@ -90,11 +93,17 @@ seed = 99
     CHECK(profile.subpixelBits == 5);
     CHECK(profile.textureFractionBits == 3);
     CHECK(profile.textureFilter == Filter::nearest);
+    CHECK(profile.filterRule == FilterRule{FilterPosition::rounded, FilterWeights::bits8,
+                                           FilterSum::fixedFunction, TexelFormat::float16});
     CHECK(profile.environment == Arithmetic::fp16);
     CHECK(profile.volumeStencil == VolumeStencil::exact);
     CHECK(profile.biasUnit == BiasUnit::driver);
     CHECK(composed("volume_stencil = '8-bit'").volumeStencil == VolumeStencil::bits8);
-    CHECK(composed("texture_fraction_bits = 'exact'\nbase = 'd3d11'").textureFractionBits == kExactFraction);
+    CHECK(composed("texture_fraction_bits = 'exact'\nbase = 'vulkan-min'").textureFractionBits ==
+          kExactFraction);
+    CHECK(composed("base = 'd3d11'\nfilter_weights = 'product'").filterRule == FilterRule{});
+    CHECK(composed("base = 'nvidia'\ntexture_format = 'unorm8'").filterRule.texels == TexelFormat::unorm8);
+    CHECK(composed("depth_rounding = 'fixed-function'").depthRounding == DepthRounding::fixedFunction);
 }
 
 TEST_CASE("WhatAProfileFileLeavesOutIsThatOfItsBase") {
@@ -150,6 +159,14 @@ TEST_CASE("BadProfileFilesAreRefusedWithLineAndKey") {
     refuses("texture_fraction_bits = 17", "1: 'texture_fraction_bits'", "[0, 16]");
     refuses("texture_fraction_bits = 'most'", "1: 'texture_fraction_bits'", "exact");
     refuses("texture_filter = 'cubic'", "1: 'texture_filter'");
+    refuses("texture_format = 'fp16'", "1: 'texture_format'", "half");
+    refuses("filter_position = 'fixed-point'", "1: 'filter_position'", "texture_fraction_bits = 8");
+    refuses("filter_weights = '8-bit'", "1: 'filter_weights'", "at most 8");
+    refuses("filter_sum = 'fixed-function'", "1: 'filter_sum'", "8-bit");
+    refuses("base = 'd3d11'\ntexture_fraction_bits = 'exact'", "2: 'texture_fraction_bits'",
+            "filter_weights");
+    refuses("base = 'nvidia'\ntexture_fraction_bits = 4", "2: 'texture_fraction_bits'", "filter_position");
+    refuses("base = 'nvidia'\nfragment = 'fp16'", "2: 'fragment'", "at least 24 significand bits");
     refuses("[fragment]\nbits = 3", "2: unknown key 'bits' in [fragment]");
     refuses("[fragment]\nsignificand_bits = 25", "2: 'significand_bits' in [fragment]", "[2, 24]");
     refuses("[fragment]\nsignificand_bits = 1", "2: 'significand_bits'");
@@ -194,7 +211,7 @@ TEST_CASE("TheTextOfAProfileIsAFileThatComposesIt") {
 }
 
 TEST_CASE("EveryFieldOfWhatImitatesHardwareIsDocumentedOrAssumed") {
-    for (const char* name : {"nv40-fp32", "nv40-fp16", "r300-fp24", "vulkan-min"})
+    for (const char* name : {"d3d11", "nvidia", "nv40-fp32", "nv40-fp16", "r300-fp24", "vulkan-min"})
         for (const ProfileField& field : profileFields(*findProfile(name))) {
             CAPTURE(name);
             CAPTURE(field.key);

@@ -6,9 +6,11 @@
 #include <set>
 
 #include "numeric/door.h"
+#include "numeric/emulated.h"
 #include "numeric/isa.h"
 #include "numeric/random.h"
 #include "raster/depth.h"
+#include "shadows/shadow_kernels.h"
 #include "shadows/shadow_pattern.h"
 #include "tests/shadows/shadow_scene.h"
 
@@ -137,7 +139,14 @@ TEST_CASE("WindowsSideBySideGiveTheBitsOfTheText") {
                 random.pick({double(NAN), double(INFINITY), 0.0, 1e-30});
         if (random.chance(0.02)) points.instance[i] = kNoInstance;
     }
-    for (const char* profile : {"f32", "f64", "vulkan-min"})
+    // The names' own, and with the positions and weights of rule 22.
+    struct Choice {
+        const char* profile;
+        bool isHardware;
+    };
+    for (const auto& [profile, isHardware] :
+         {Choice{"f32", false}, Choice{"f64", false}, Choice{"vulkan-min", false}, Choice{"f32", true},
+          Choice{"f64", true}})
         for (const SurfaceLight& light :
              {sun({0.4, 1, 0.3}), bulb({0.3, 2, 0.2}), torch({0.3, 2, 0.2}, {0, -1, 0}, 0.7)})
             for (const ShadowDepth depth :
@@ -156,8 +165,11 @@ TEST_CASE("WindowsSideBySideGiveTheBitsOfTheText") {
                     ShadowMap map = mapOf(scene, light, request);
                     if (random.chance(0.7)) addNoise(map, random);
                     size_t partly = 0, different = 0;
-                    const auto expected = lookUp(map, points, profile, WindowSearch::text),
-                               actual = lookUp(map, points, profile);
+                    Profile chosen = *findProfile(profile);
+                    if (isHardware)
+                        chosen.textureFractionBits = 8, chosen.filterRule = findProfile("nvidia")->filterRule;
+                    const auto expected = lookUp(map, points, chosen, WindowSearch::text),
+                               actual = lookUp(map, points, chosen);
                     for (size_t i = 0; i < points.size(); i++) {
                         different += actual[i] != expected[i];
                         partly += expected[i] > 0 && expected[i] < 1;
@@ -176,9 +188,10 @@ TEST_CASE("WeightsHaveTheProfilesFractionBits") {
     const LitPoints points = gridOn(0, -2, 2, 40);
     struct Bits {
         const char* profile;
-        double step;  // of the product of two fractions over taps^2
+        double step;  // of the product of two fractions, or of weights of 8 bits, over taps^2
     };
-    for (const Bits& bits : {Bits{"d3d11", 0x1p-20}, Bits{"vulkan-min", 0x1p-12}}) {
+    for (const Bits& bits : {Bits{"nv40-fp32", 0x1p-20}, Bits{"vulkan-min", 0x1p-12}, Bits{"d3d11", 0x1p-12},
+                             Bits{"nvidia", 0x1p-12}}) {
         request.profile = bits.profile;
         bool isFiner = false;
         for (const double v : visibilityOf(confetti(), sun({0.4, 1, 0.3}), points, request)) {
@@ -186,6 +199,69 @@ TEST_CASE("WeightsHaveTheProfilesFractionBits") {
             isFiner = isFiner || v / (2 * bits.step) != std::floor(v / (2 * bits.step));
         }
         CHECK(isFiner);
+    }
+}
+
+// Positions and weights of rule 22, in integers.
+TEST_CASE("WindowsHaveThePositionsAndWeightsOfTheTextureUnit") {
+    using K = ShadowKernels<float>;
+    const ShadowMap none;
+    const ShadowBuffers<float> buffers{ShadowTexels<float>(none, 1), {}, PatternTurns(0)};
+    K kernels{buffers};
+    Random random(7);
+    for (const int width : {64, 100, 1000, 2048})
+        for (const int taps : {1, 2, 3, 4, 16}) {
+            const auto sampling = samplingOf<K>(samplerOf(*findProfile("nvidia")), width, width);
+            for (int i = 0; i < 3000; i++) {
+                const auto position = static_cast<float>(random.uniform(-9, width + 9));
+                const K::TexelPair start = kernels.windowStart(position, taps, sampling);
+                const float u = (position - static_cast<float>(taps - 1) * 0.5f) / static_cast<float>(width);
+                const auto t = static_cast<int64_t>(std::floor(std::ldexp(static_cast<double>(u), 21)));
+                const int64_t p = ((256 * t * width + (1 << 20)) >> 21) - 128;
+                REQUIRE(start.first == p >> 8);
+                REQUIRE(start.fraction * 256 == static_cast<float>(p & 255));
+                REQUIRE(
+                    kernels.texelOf(position, sampling).first ==
+                    std::floor(std::floor(position / static_cast<float>(width) * 0x1p21) * width / 0x1p21));
+                const int x = random.integer(0, 255), y = random.integer(0, 255), both = (x * y + 128) / 256;
+                int lit[4];
+                for (int& count : lit) count = random.integer(0, taps * taps);
+                const int sum =
+                    (256 - x - y + both) * lit[0] + (x - both) * lit[1] + (y - both) * lit[2] + both * lit[3];
+                const float part = kernels.litPart(static_cast<float>(lit[0]), static_cast<float>(lit[1]),
+                                                   static_cast<float>(lit[2]), static_cast<float>(lit[3]),
+                                                   static_cast<float>(x) / 256.0f,
+                                                   static_cast<float>(y) / 256.0f, taps, sampling);
+                REQUIRE(part == static_cast<float>(sum) / static_cast<float>(256 * taps * taps));
+            }
+        }
+}
+
+// Whatever the number type, where the map's depths are written by rule 22.
+TEST_CASE_TEMPLATE("QuantisedReferencesAreWrittenAsTheMapIs", T, float, Lanes<float, 8>, Lanes<double, 2>,
+                   Emulated<Lanes<double, 2>>) {
+    const EmulatedScope scope(kFp32Flush);
+    Random random(8);
+    for (const ShadowDepth depth : {ShadowDepth::d16, ShadowDepth::d24}) {
+        ShadowMap map;
+        map.settings.depth = depth;
+        map.settings.reference = ShadowReference::quantised;
+        map.depthRounding = DepthRounding::fixedFunction;
+        const ShadowTexels<T> texels(map, 1);
+        const double levels = depthLevels(map.format());
+        for (int i = 0; i < 20000; i++) {
+            // Next to a tie, or one of D24's.
+            auto z = static_cast<float>((random.integer(0, static_cast<int>(levels) - 1) + 0.5) / levels);
+            if (i % 3 == 0) z = static_cast<float>(random.integer(0, 0xfffff) + 0.5) * 0x1p-24f;
+            if (i % 5 == 0) z = static_cast<float>(random.uniform(0, 1));
+            const int written =
+                storedDepth(map.format(), DepthRounding::fixedFunction, Lanes<float, 1>(z))[0];
+            const auto isBelow = [&](int stored) {
+                return anyOf(texels.isBelowStored(T(static_cast<double>(stored)), T(static_cast<double>(z))));
+            };
+            REQUIRE(isBelow(written - 1));
+            REQUIRE(!isBelow(written));
+        }
     }
 }
 
@@ -369,7 +445,7 @@ TEST_CASE("ShadowThreadsAndLevelsChangeNoBit") {
                                             {threads, threads == 1 ? 64 : 16, false});
                         std::vector<double> visibility(points.size());
                         passesIn<LookupPasses>(profile.fragment)
-                            ->makeLookup(map, 8, threads, WindowSearch::sideBySide)
+                            ->makeLookup(map, {.fractionBits = 8}, threads, WindowSearch::sideBySide)
                             ->find(points, visibility);
                         all.push_back(visibility);
                     }

@@ -72,15 +72,19 @@ struct MapRequest {
     std::vector<bool> receivers = {};
 };
 
+inline std::vector<double> lookUp(const ShadowMap& map, const LitPoints& points, const Profile& profile,
+                                  WindowSearch search = WindowSearch::sideBySide) {
+    std::vector<double> visibility(points.size());
+    passesIn<LookupPasses>(profile.fragment)
+        ->makeLookup(map, samplerOf(profile), 1, search)
+        ->find(points, visibility);
+    return visibility;
+}
+
 inline std::vector<double> lookUp(const ShadowMap& map, const LitPoints& points,
                                   const char* profileName = "f32",
                                   WindowSearch search = WindowSearch::sideBySide) {
-    const Profile& profile = *findProfile(profileName);
-    std::vector<double> visibility(points.size());
-    passesIn<LookupPasses>(profile.fragment)
-        ->makeLookup(map, profile.textureFractionBits, 1, search)
-        ->find(points, visibility);
-    return visibility;
+    return lookUp(map, points, *findProfile(profileName), search);
 }
 
 inline ShadowMap mapOf(const SurfaceScene& scene, const SurfaceLight& light, const MapRequest& request) {

@@ -207,6 +207,24 @@ uint32_t storedDepth(DepthFormat format, DepthRounding rounding, Real z) {
     const int64_t levels = (int64_t(1) << bits) - 1;
     if (rounding == DepthRounding::driver)
         return static_cast<uint32_t>(std::nearbyint(static_cast<float>(z) * static_cast<float>(levels)));
+    if (rounding == DepthRounding::fixedFunction) {
+        // The float is m / 2^scale; rule 22 in integers.
+        int exponent;
+        const auto m = static_cast<int64_t>(
+            std::ldexp(std::frexp(static_cast<double>(static_cast<float>(z)), &exponent), 24));
+        const int scale = 24 - exponent;
+        if (scale > 90) return 0;  // z < 2^-66
+        const Wide one = Wide(1) << scale;
+        if (bits == 16) {
+            // Cut to t / 2^20; up where 2 (t levels mod 2^20) > 2^20.
+            const Wide product = ((Wide(m) << 20) >> scale) * levels;
+            return static_cast<uint32_t>((2 * product + (1 << 20) - 1) >> 21);
+        }
+        const Wide product = Wide(m) * levels, k = product >> scale, twice = 2 * (product - (k << scale));
+        const Wide scaled = Wide(m) << 24;
+        const bool isMiddle = 16 * Wide(m) < one && 2 * (scaled % one) == one;
+        return static_cast<uint32_t>(k + (twice > one || (twice == one && k % 2 == 1) || isMiddle ? 1 : 0));
+    }
     // z = mantissa / 2^scale; floor((2 mantissa levels + 2^scale) / 2^(scale + 1)).
     int exponent;
     const auto mantissa = static_cast<int64_t>(std::ldexp(std::frexp(static_cast<double>(z), &exponent), 53));
