@@ -17,7 +17,8 @@ namespace {
 
 struct ProbeConvertVerb {
     ProbeInput input;
-    std::string output, to, toLayout = "openexr", resampling = std::string(nameOf(Resampling::area)), profile = "f32";
+    std::string output, to, toLayout = "openexr", resampling = std::string(nameOf(Resampling::area)),
+                            profile = "f32";
     int width = 0, height = 0, threads = 0;
     double toBallDistance_radii = std::numeric_limits<double>::infinity(), rotation_deg = 0;
     bool upright = false;
@@ -55,10 +56,11 @@ void warnOfPointSampling(const ProbeConvertVerb& verb, const Probe& source, cons
         const glm::dvec3 rgb = statisticsOf(probe, verb.threads).mean;
         return (rgb.x + rgb.y + rgb.z) / 3.0;
     };
-    printText(stderr,
-              "etalon: warning: {}: {} takes points of the source, whose texels are up to {:.3g} times as fine as "
-              "the result's: the mean radiance was {:.6g} and is {:.6g}; --resample area keeps it\n",
-              printable(verb.input.file), verb.resampling, minification, mean(source), mean(result));
+    printText(
+        stderr,
+        "etalon: warning: {}: {} takes points of the source, whose texels are up to {:.3g} times as fine as "
+        "the result's: the mean radiance was {:.6g} and is {:.6g}; --resample area keeps it\n",
+        printable(verb.input.file), verb.resampling, minification, mean(source), mean(result));
 }
 
 ExitCode runProbeConvert(const ProbeConvertVerb& verb) {

@@ -109,7 +109,7 @@ void addConversion(const std::string& name, const ProbeShape& from, const ProbeS
                             .bytes_touched = (texels(from) + texels(to)) * kRadiance_bytes};
         Probe result;
         convertProbe(result, source, {.shape = to, .resampling = Resampling::bilinear}, arithmetic,
-                         way.threads);
+                     way.threads);
         measure(state, amount, [&] {
             convertProbe(result, source, {.shape = to, .resampling = Resampling::bilinear}, arithmetic,
                          way.threads);

@@ -132,11 +132,10 @@ double minificationOf(const Probe& source, const ProbeConversion& conversion) {
         for (int y = 0; y < to.height; y++)
             for (int x = 0; x < to.width; x++) {
                 const glm::dvec3 d = grid.direction(layer, x, y);
-                const auto p = kernel.mappingPoint(
-                    {turn[0].x * d.x + (turn[1].x * d.y + turn[2].x * d.z),
-                     turn[0].y * d.x + (turn[1].y * d.y + turn[2].y * d.z),
-                     turn[0].z * d.x + (turn[1].z * d.y + turn[2].z * d.z)},
-                    settings);
+                const auto p = kernel.mappingPoint({turn[0].x * d.x + (turn[1].x * d.y + turn[2].x * d.z),
+                                                    turn[0].y * d.x + (turn[1].y * d.y + turn[2].y * d.z),
+                                                    turn[0].z * d.x + (turn[1].z * d.y + turn[2].z * d.z)},
+                                                   settings);
                 const int column = texelOf(p.u, from.width), row = texelOf(p.v, from.height);
                 // The rim cuts texels off, which makes them no finer.
                 if (isDisc(from.mapping) && !isWholeTexel(from, column, row)) continue;

@@ -45,15 +45,16 @@ struct ProbeConversion {
 };
 
 // Of the flux of any texel of the source that has radiance, the largest difference in the result by area, but for the
-// rounding of the arithmetic: relative to its own flux, or, where a disc's rim cuts the texel, to that of a whole one
-// as bright. Of all flux together it is less. Near mirror balls, whose density has no bound at the rim, are off by
-// kNearBallEnergyError there.
+// rounding of the arithmetic: relative to its own flux, or, where a disc's rim cuts the texel, kRimEnergyError of
+// that of a whole one as bright. Of near mirror balls it holds for the texels that are seen whole: beside what a ball
+// does not show a texel of the result shows what it sees of the rim all over.
 inline constexpr double kAreaEnergyError = 1e-5;
-inline constexpr double kNearBallEnergyError = 1e-2;
+inline constexpr double kRimEnergyError = 1e-4;
 
 // The radiance (and distance and validity, where the source has them) of the source as a probe of another
 // shape or orientation, at the same position. `valid` of the result is empty if every texel is valid. Neither
-// threads nor lanes change a bit. Sizes of the source are whole numbers of the arithmetic (raster/sampler.h).
+// threads nor lanes change a bit. Sizes of a source that is point sampled, or has distances, are whole numbers of the
+// arithmetic (raster/sampler.h).
 Probe convertProbe(const Probe& source, const ProbeConversion& conversion,
                    Arithmetic arithmetic = Arithmetic::fp32, int threads = 0);
 

@@ -41,7 +41,8 @@ class Disc {
         const double length = (outerSquare - innerSquare) / square(size_) / (outer + inner);
         if (isOrthographic_) return x.count * (2.0 * length);
         if (isAngular_)
-            return x.count * integral(inner, length, [&](double at) { return discTerm(at, y, true, settings_); });
+            return x.count *
+                   integral(inner, length, [&](double at) { return discTerm(at, y, true, settings_); });
         // x = reach sin(psi) takes the square root at the rim away.
         const double reach = std::sqrt(reachSquare) / size_;
         const double psi = arc(reachSquare, innerSquare, 0.0);

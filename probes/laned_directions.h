@@ -13,7 +13,8 @@ namespace etalon {
 template <class T>
 class LanedDirections;
 
-// The overlaps of the texels of a row from a column on, in lanes; lanes with fewer of them have some of weight 0 behind.
+// The overlaps of the texels of a row from a column on, in lanes. Lanes with fewer of them have some of weight 0
+// behind.
 template <class T>
 struct LanedOverlaps {
     std::vector<typename NumberTraits<T>::Integer> layers, columns, rows;
@@ -72,7 +73,9 @@ class LanedDirections {
     const typename Kernel::MappingSettings& settings() const { return settings_; }
     // Numbers of the texels from column `first` on, and of row y: 0 is the sine of longitude or latitude, 1 the
     // cosine; or 0 is u or v.
-    const T& column(size_t first, int k) const { return k == 0 ? first_->at(first, 0) : second_->at(first, 0); }
+    const T& column(size_t first, int k) const {
+        return k == 0 ? first_->at(first, 0) : second_->at(first, 0);
+    }
     T row(int y, int k) const {
         if (!grid_) return T(coordinateOf(y, 0, shape_.height, 1));
         return T(k == 0 ? grid_->sinLatitude(y) : grid_->cosLatitude(y));

@@ -17,7 +17,7 @@ double signOf(bool isPositive) { return isPositive ? 1.0 : -1.0; }
 }  // namespace
 
 SourceChart::SourceChart(const ProbeShape& shape)
-    : kind_(isLatLong(shape.mapping)                ? Kind::latLong
+    : kind_(isLatLong(shape.mapping)               ? Kind::latLong
             : shape.mapping == Mapping::cube       ? Kind::cube
             : shape.mapping == Mapping::octahedral ? Kind::octahedral
                                                    : Kind::disc),
@@ -52,7 +52,8 @@ SourceChart::SourceChart(const ProbeShape& shape)
     hasConstantDensity_ = constantDensity_ > 0.0;
     for (int i = 0; i <= shape.width; i++) columns_.push_back(i);
     for (int j = 0; j <= shape.height; j++)
-        rows_.push_back(kind_ == Kind::latLong ? -sinOf(0.5 * kPi * ((shape.height - 2.0 * j) / shape.height)) : j);
+        rows_.push_back(kind_ == Kind::latLong ? -sinOf(0.5 * kPi * ((shape.height - 2.0 * j) / shape.height))
+                                               : j);
 }
 
 int SourceChart::patchOf(const glm::dvec3& d) const {
@@ -105,8 +106,7 @@ glm::dvec2 SourceChart::at(int patch, const glm::dvec3& d) const {
             const glm::dvec3 a(std::abs(d.x), d.y, std::abs(d.z));
             const double quarter_rad = isPedersen_ ? atan2Of(a.z, a.x) : atan2Of(a.x, a.z);
             const bool isAhead = isPedersen_ ? !isX : isSecond, isLeft = isPedersen_ ? !isSecond : isX;
-            const double longitude_rad =
-                signOf(isLeft) * (isAhead ? quarter_rad : kPi - quarter_rad);
+            const double longitude_rad = signOf(isLeft) * (isAhead ? quarter_rad : kPi - quarter_rad);
             return {(0.5 - longitude_rad / (2.0 * kPi)) * size_, -d.y};
         }
         case Kind::cube: {

@@ -117,7 +117,8 @@ class RowCutter {
         size_t count = 0;
         double largest = 0.0, all = 0.0;
         for (const TexelOverlap& one : of) {
-            if (count > 0 && of[count - 1].layer == one.layer && of[count - 1].y == one.y && of[count - 1].x == one.x)
+            if (count > 0 && of[count - 1].layer == one.layer && of[count - 1].y == one.y &&
+                of[count - 1].x == one.x)
                 of[count - 1].weight += one.weight;
             else
                 of[count++] = one;
@@ -141,12 +142,14 @@ class RowCutter {
         }
         const glm::dvec3 d = MappingKernel<double>{}.mappingDirection(curve.layer, p.x, p.y, s_.settings);
         const glm::dmat3& r = s_.turn;
-        return unitOf({r[0].x * d.x + (r[1].x * d.y + r[2].x * d.z), r[0].y * d.x + (r[1].y * d.y + r[2].y * d.z),
+        return unitOf({r[0].x * d.x + (r[1].x * d.y + r[2].x * d.z),
+                       r[0].y * d.x + (r[1].y * d.y + r[2].y * d.z),
                        r[0].z * d.x + (r[1].z * d.y + r[2].z * d.z)});
     }
 
     // Where a curve crosses a plane, between two places on both sides of it.
-    double crossing(const Curve& curve, const glm::dvec3& normal, double t0, double f0, double t1, double f1) const {
+    double crossing(const Curve& curve, const glm::dvec3& normal, double t0, double f0, double t1,
+                    double f1) const {
         for (int step = 0; step < 60; step++) {
             // The secant's zero, in the middle half, every third time the middle.
             double t = step % 3 == 2 ? 0.5 * (t0 + t1) : (t0 * f1 - t1 * f0) / (f1 - f0);
@@ -173,9 +176,9 @@ class RowCutter {
         const double parabola = (2.0 / 3.0) * crossOf(off, chord);
         const double t = 0.5 * (t0 + t1);
         const glm::dvec2 a = at(0.5 * (t0 + t)), b = at(0.5 * (t + t1));
-        const double halves = 0.5 * crossOf(off, chord) +
-                              (2.0 / 3.0) * (crossOf(a - between(p0, m, 0.5), m - p0) +
-                                             crossOf(b - between(m, p1, 0.5), p1 - m));
+        const double halves =
+            0.5 * crossOf(off, chord) + (2.0 / 3.0) * (crossOf(a - between(p0, m, 0.5), m - p0) +
+                                                       crossOf(b - between(m, p1, 0.5), p1 - m));
         // Against the cell: as many such pieces as halvings make are one of its sides.
         const double thickness = std::abs(parabola) * perArea * (1 << halvings);
         if (std::abs(parabola - halves) * perArea <= tolerance_sr &&
@@ -199,8 +202,10 @@ class RowCutter {
             const double f0 = dotOf(normal, from), f = dotOf(normal, middle), f1 = dotOf(normal, to);
             const auto isOff = [](double v) { return std::abs(v) > kSameDirection; };
             if (isOff(f)) {
-                if (isOff(f0) && (f0 < 0) != (f < 0)) cuts_.push_back(crossing(curve, normal, 0.0, f0, 0.5, f));
-                if (isOff(f1) && (f1 < 0) != (f < 0)) cuts_.push_back(crossing(curve, normal, 0.5, f, 1.0, f1));
+                if (isOff(f0) && (f0 < 0) != (f < 0))
+                    cuts_.push_back(crossing(curve, normal, 0.0, f0, 0.5, f));
+                if (isOff(f1) && (f1 < 0) != (f < 0))
+                    cuts_.push_back(crossing(curve, normal, 0.5, f, 1.0, f1));
             } else if (isOff(f0) || isOff(f1)) {
                 // Crosses it, or turns back.
                 cuts_.push_back(0.5);
@@ -214,7 +219,8 @@ class RowCutter {
             const glm::dvec3 b = t1 == 1.0 ? to : directionAt(curve, t1);
             const glm::dvec3 m = t0 == 0.0 && t1 == 1.0 ? middle : directionAt(curve, t);
             // A point: all of its directions are one.
-            if (!(t0 < t1) || (isSame(a, b) && isSame(a, m)) || (s_.chart.isSingular(a) && s_.chart.isSingular(m)))
+            if (!(t0 < t1) || (isSame(a, b) && isSame(a, m)) ||
+                (s_.chart.isSingular(a) && s_.chart.isSingular(m)))
                 continue;
             addPart(curve, t0, a, t1, b, m, tolerance_sr);
             a = b;
@@ -257,7 +263,8 @@ class RowCutter {
         };
         if (t0 > 0.0) curve.from = between(from, to, t0);
         if (t1 < 1.0) curve.to = between(from, to, t1);
-        return sideOf(curve, t0 > 0.0 ? onRim(t0) : directionFrom, t1 < 1.0 ? onRim(t1) : directionTo, tolerance_sr);
+        return sideOf(curve, t0 > 0.0 ? onRim(t0) : directionFrom, t1 < 1.0 ? onRim(t1) : directionTo,
+                      tolerance_sr);
     }
 
     void cutCells(int row, std::vector<std::vector<TexelOverlap>>& texels) {
@@ -270,7 +277,8 @@ class RowCutter {
         const auto directionsOf = [&](int line) {
             std::vector<glm::dvec3> directions;
             for (int column = 0; column <= across; column++)
-                directions.push_back(directionAt({layer_, point(column, line), point(column, line), false}, 0.0));
+                directions.push_back(
+                    directionAt({layer_, point(column, line), point(column, line), false}, 0.0));
             return directions;
         };
         const std::vector<glm::dvec3> upper = directionsOf(row), lower = directionsOf(row + 1);
@@ -290,10 +298,10 @@ class RowCutter {
             const double error_sr = tolerance_sr(column, y_);
             const Side top = gridSide(point(column, row), point(column + 1, row), upper[i], upper[i + 1],
                                       sideTolerance_sr(column, row));
-            const Side bottom = gridSide(point(column, row + 1), point(column + 1, row + 1), lower[i], lower[i + 1],
-                                         sideTolerance_sr(column, row + 1));
-            const Side right =
-                gridSide(point(column + 1, row), point(column + 1, row + 1), upper[i + 1], lower[i + 1], error_sr);
+            const Side bottom = gridSide(point(column, row + 1), point(column + 1, row + 1), lower[i],
+                                         lower[i + 1], sideTolerance_sr(column, row + 1));
+            const Side right = gridSide(point(column + 1, row), point(column + 1, row + 1), upper[i + 1],
+                                        lower[i + 1], error_sr);
             cutCell({{{&top, false}, {&right, false}, {&bottom, true}, {&left, true}}}, error_sr,
                     texels[static_cast<size_t>(column / s_.cellsAcross)]);
             left = right;
@@ -364,7 +372,8 @@ class RowCutter {
             const auto begin = inner_.begin() + static_cast<ptrdiff_t>(part.firstInner),
                        end = inner_.begin() + static_cast<ptrdiff_t>(part.endInner);
             if (turned.isBackwards)
-                polygon_.insert(polygon_.end(), std::make_reverse_iterator(end), std::make_reverse_iterator(begin));
+                polygon_.insert(polygon_.end(), std::make_reverse_iterator(end),
+                                std::make_reverse_iterator(begin));
             else
                 polygon_.insert(polygon_.end(), begin, end);
             polygon_.push_back(turned.chartTo());
@@ -401,14 +410,14 @@ class RowCutter {
     // Along the border that shows one direction.
     void addSingular(const glm::dvec2& from, const glm::dvec2& to, double error_sr) {
         polygon_.push_back(from);
-        if (s_.chart.isDisc())
-            addRim(from, to, kRimError * error_sr, 0);
+        if (s_.chart.isDisc()) addRim(from, to, kRimError * error_sr, 0);
         polygon_.push_back(to);
     }
 
     // The inner points of an arc of the source's rim. No texel has the rest of what a straight piece cuts off.
     void addRim(const glm::dvec2& from, const glm::dvec2& to, double error_sr, int halvings) {
-        const glm::dvec2 m = s_.chart.rimPoint(from, to, 0.5), middle = between(from, to, 0.5), off = m - middle;
+        const glm::dvec2 m = s_.chart.rimPoint(from, to, 0.5), middle = between(from, to, 0.5),
+                         off = m - middle;
         const double area = (2.0 / 3.0) * crossOf(off, to - from);
         const glm::dvec2 chord = to - from;
         const bool isShort = std::max(std::abs(chord.x), std::abs(chord.y)) <= kRimPiece_texels;
@@ -445,11 +454,11 @@ class RowCutter {
     }
     // piece(index, polygon) for what lies in each column or row.
     template <class Piece>
-    static void cutAlong(int axis, const std::vector<double>& lines, Points& rest, Points& part, Points& scratch,
-                         const Piece& piece) {
-        const auto [least, most] = std::minmax_element(
-            rest.begin(), rest.end(),
-            [&](const glm::dvec2& a, const glm::dvec2& b) { return a[axis] < b[axis]; });
+    static void cutAlong(int axis, const std::vector<double>& lines, Points& rest, Points& part,
+                         Points& scratch, const Piece& piece) {
+        const auto [least, most] =
+            std::minmax_element(rest.begin(), rest.end(),
+                                [&](const glm::dvec2& a, const glm::dvec2& b) { return a[axis] < b[axis]; });
         const size_t first = indexOf(lines, (*least)[axis]), last = indexOf(lines, (*most)[axis]);
         for (size_t i = first; i < last; i++) {
             split(rest, axis, lines[i + 1], part, scratch);
@@ -468,7 +477,8 @@ class RowCutter {
             cutAlong(0, chart.columns(), column_, texel_, scratchColumn_, [&](size_t x, const Points& texel) {
                 const double solidAngle_sr = chart.solidAngle_sr(texel);
                 all_sr += solidAngle_sr;
-                to.push_back({chart.layerOf(patch), static_cast<int32_t>(x), static_cast<int32_t>(y), solidAngle_sr});
+                to.push_back(
+                    {chart.layerOf(patch), static_cast<int32_t>(x), static_cast<int32_t>(y), solidAngle_sr});
             });
         });
         if (all_sr < 0.0)
@@ -487,10 +497,10 @@ class RowCutter {
 }  // namespace
 
 TexelOverlaps::TexelOverlaps(const ProbeShape& source, const ProbeShape& target, const glm::dmat3& turn)
-    : shapes_(std::make_unique<Shapes>(Shapes{
-          target, TexelGrid(target), mappingSettingsOf<MappingKernel<double>>(target), turn, SourceChart(source),
-          cellsPerTexel(target.width, leastCells(target.mapping, true)),
-          cellsPerTexel(target.height, leastCells(target.mapping, false))})) {}
+    : shapes_(std::make_unique<Shapes>(
+          Shapes{target, TexelGrid(target), mappingSettingsOf<MappingKernel<double>>(target), turn,
+                 SourceChart(source), cellsPerTexel(target.width, leastCells(target.mapping, true)),
+                 cellsPerTexel(target.height, leastCells(target.mapping, false))})) {}
 TexelOverlaps::~TexelOverlaps() = default;
 
 RowOverlaps TexelOverlaps::ofRow(int layer, int y) const {

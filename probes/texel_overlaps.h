@@ -8,7 +8,7 @@
 // The polygon of each texel is cut along the rows and columns of the source's image. The solid angle of a piece is its
 // area in coordinates of constant density (lat-long: longitude and sine of latitude; octahedral; orthographic ball),
 // that of the spherical polygon (cube), or the integral of 1 - cos(polar angle) along its border (other discs).
-// Coarse texels are cut into cells of less than about 40 degrees first.
+// Coarse texels are cut into cells of less than about 10 degrees first.
 #pragma once
 
 #include <cstdint>
@@ -25,8 +25,8 @@ struct TexelOverlap {
     int32_t layer, x, y;
     double weight;
 };
-// Of a row of texels of the result: those of texel x are overlaps[first[x]] to overlaps[first[x + 1] - 1], in the order of
-// layers, rows and columns. None where a texel shows nothing of the source.
+// Of a row of texels of the result: those of texel x are overlaps[first[x]] to overlaps[first[x + 1] - 1], in the order
+// of layers, rows and columns. None where a texel shows nothing of the source.
 struct RowOverlaps {
     std::vector<size_t> first;
     std::vector<TexelOverlap> overlaps;

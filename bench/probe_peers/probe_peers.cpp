@@ -71,7 +71,8 @@ void addAll() {
     addMaker(
         "etalon",
         [=](Probe& cube) {
-            convertProbe(cube, latLong, {.shape = kLargeCube, .resampling = Resampling::bilinear}, Arithmetic::fp32, 1);
+            convertProbe(cube, latLong, {.shape = kLargeCube, .resampling = Resampling::bilinear},
+                         Arithmetic::fp32, 1);
         },
         empty, true);
 #ifdef ETALON_HAS_OPENCV

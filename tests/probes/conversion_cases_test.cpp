@@ -51,8 +51,8 @@ TEST_CASE("NonFiniteTexelsReachOnlyTheirNeighbourhood") {
          {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
         Image<float> image = randomImage(32, 16, 2);
         image.at(9, 8, 1) = bad;
-        const Probe result = convertProbe(
-            probeOf(image, Mapping::latLong), {{Mapping::cube, 16, 16}, glm::dmat3(1), Resampling::bilinear});
+        const Probe result = convertProbe(probeOf(image, Mapping::latLong),
+                                          {{Mapping::cube, 16, 16}, glm::dmat3(1), Resampling::bilinear});
         int count = 0;
         const TexelGrid grid(result.shape);
         for (int layer = 0; layer < 6; layer++)
@@ -87,8 +87,8 @@ TEST_CASE("ConversionsHaveNoSeams") {
                         static_cast<float>(smooth(texels.direction(layer, x, y)));
         }
         // All texels, those over borders too, are within the error of bilinear blending.
-        const Probe result = convertProbe(
-            probe, {{Mapping::octahedral, 101, 101}, glm::dmat3(1), Resampling::bilinear});
+        const Probe result =
+            convertProbe(probe, {{Mapping::octahedral, 101, 101}, glm::dmat3(1), Resampling::bilinear});
         const TexelGrid grid(result.shape);
         double worst = 0;
         for (int y = 0; y < 101; y++)

@@ -119,7 +119,8 @@ TEST_CASE("ConversionToACubeIsThePassOfMirrors") {
     const Probe source = probeOf(image, Mapping::latLong);
     for (const Arithmetic arithmetic : {Arithmetic::fp32, Arithmetic::fp16}) {
         for (const int size : {9, 16}) {
-            const Probe cube = convertProbe(source, {{Mapping::cube, size, size}, glm::dmat3(1), Resampling::bilinear}, arithmetic, 2);
+            const Probe cube = convertProbe(
+                source, {{Mapping::cube, size, size}, glm::dmat3(1), Resampling::bilinear}, arithmetic, 2);
             CHECK(sameBits(
                 cube, probeOf(passesIn<MappingPasses>(arithmetic)->cubeFromLatLong(image, size, {}, 1))));
         }
@@ -266,8 +267,10 @@ TEST_CASE("PlacesSurviveConversionWithinTheirGeometricError") {
 TEST_CASE("RoundTripsOfAnAnalyticRadianceConvergeAtTheirOrder") {
     const auto error = [](Mapping by, int size) {
         const Probe source = probeOfFunction(shapeOf(Mapping::latLong, size), analyticRadiance);
-        const Probe there = convertProbe(source, {shapeOf(by, size), glm::dmat3(1), Resampling::bilinear}, Arithmetic::fp64);
-        const Probe back = convertProbe(there, {source.shape, glm::dmat3(1), Resampling::bilinear}, Arithmetic::fp64);
+        const Probe there =
+            convertProbe(source, {shapeOf(by, size), glm::dmat3(1), Resampling::bilinear}, Arithmetic::fp64);
+        const Probe back =
+            convertProbe(there, {source.shape, glm::dmat3(1), Resampling::bilinear}, Arithmetic::fp64);
         const TexelGrid grid(source.shape);
         double square = 0;
         forEachTexel(back, [&](int layer, int x, int y, bool isValid, const glm::dvec3& value) {
