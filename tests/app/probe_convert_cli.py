@@ -41,7 +41,7 @@ class ProbeConvert(cli_case.CliCase):
         self.assertEqual(self.on_terminal(*convert), "")
         text = self.on_slow_terminal(
             r"converting: (step \d+, )?\d+ %, \d+ s left",
-            lambda width: (*convert, "--width", width), (400, 800, 1600, 3200))
+            lambda width: (*convert, "--width", width), (400, 600, 900, 1400, 2100))
         self.assertTrue(text.endswith("\x1b[K"))
 
     def test_what_is_no_radiance_is_counted(self):
@@ -72,20 +72,21 @@ class ProbeConvert(cli_case.CliCase):
         for mapping, width in (("latlong", 32), ("cube", 16), ("octahedral", 500)):
             with self.subTest(mapping=mapping):
                 convert = ("probe", "convert", "sun.pfm", "--to", mapping, "--width", width, "-o", "a.exr")
-                self.assertEqual(self.expect(0, *convert).stderr, "")
+                self.expect(0, *convert)
                 self.assertAlmostEqual(self.info("a.exr")["mean_radiance"][0], mean, delta=1e-5 * mean)
         for resample in ("bilinear", "nearest"):
             convert = ("probe", "convert", "sun.pfm", "--to", "latlong", "--width", 32, "-o", "a.exr")
-            said = self.expect(0, *convert, "--resample", resample).stderr
+            result = self.run_program(*convert, "--resample", resample)
+            self.assertEqual(result.returncode, 0)
+            said = result.stderr
             found = self.info("a.exr")["mean_radiance"][0]
             self.assertLess(found, 0.6 * mean)
             self.assertEqual(said.count("\n"), 1)
             self.assertIn("etalon: warning: sun.pfm: " + resample, said)
             self.assertIn(f"was {mean:.6g} and is {found:.6g}", said)
         # Nothing is finer than the result's texels.
-        larger = self.expect(0, "probe", "convert", "sun.pfm", "--to", "latlong", "--width", 512, "-o", "a.exr",
-                             "--resample", "bilinear")
-        self.assertEqual(larger.stderr, "")
+        self.expect(0, "probe", "convert", "sun.pfm", "--to", "latlong", "--width", 512, "-o", "a.exr",
+                    "--resample", "bilinear")
 
     def test_cube_layouts_hold_the_same_probe(self):
         means = []
