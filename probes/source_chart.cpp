@@ -45,6 +45,7 @@ SourceChart::SourceChart(const ProbeShape& shape)
             break;
         case Kind::disc:
             planes_ = {x, y};
+            if (!isAngular_ && settings_.newtonSteps > 0) rimRadius_ = 2.0 - settings_.root;
             if (!isAngular_ && settings_.newtonSteps == 0)
                 constantDensity_ = 4.0 * (2.0 / size_) * (2.0 / size_);
             break;
@@ -130,7 +131,8 @@ glm::dvec2 SourceChart::at(int patch, const glm::dvec3& d) const {
     }
     if (settings_.newtonSteps > 0 && !Kernel{}.isOnBall(d, settings_)) {
         const double ring = std::sqrt(d.x * d.x + d.y * d.y);
-        return ring > 0.0 ? inTexels(d.x / ring, d.y / ring) : inTexels(1.0, 0.0);
+        const double radius = 1.0 + (-settings_.root - d.z);
+        return ring > 0.0 ? inTexels(radius * d.x / ring, radius * d.y / ring) : inTexels(radius, 0.0);
     }
     const glm::dvec2 q = Kernel{}.ballPoint(d, settings_);
     return inTexels(q.x, q.y);
@@ -145,13 +147,14 @@ glm::dvec2 SourceChart::rimPoint(const glm::dvec2& from, const glm::dvec2& to, d
     const glm::dvec2 a = onSquare(from), b = onSquare(to);
     const double x = a.x * (1.0 - part) + b.x * part, y = a.y * (1.0 - part) + b.y * part;
     const double radius = std::sqrt(x * x + y * y);
-    return radius > 0.0 ? inTexels(x / radius, y / radius) : from;
+    return radius > 0.0 ? inTexels(rimRadius_ * x / radius, rimRadius_ * y / radius) : from;
 }
 
 double SourceChart::density(const glm::dvec2& p) const {
     if (hasConstantDensity_) return constantDensity_;
     const glm::dvec2 q = onSquare(p);
     const double perTexel = (2.0 / size_) * (2.0 / size_);
+    if (rimRadius_ > 1.0 && q.x * q.x + q.y * q.y > 1.0) return 0.0;
     if (kind_ == Kind::disc) return perTexel * Kernel{}.discDensity(q.x, q.y, settings_);
     const double square = 1.0 + (q.x * q.x + q.y * q.y);
     return perTexel / (square * std::sqrt(square));

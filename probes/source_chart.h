@@ -64,6 +64,8 @@ class SourceChart {
     bool isPedersen_, isAngular_, hasConstantDensity_;
     double size_;
     double constantDensity_ = 0;  // sr per area of the coordinates
+    // Where -Z is. What a near ball does not show lies beyond its disc, where there is no density.
+    double rimRadius_ = 1;
     MappingKernel<double>::MappingSettings settings_;
     std::vector<glm::dvec3> planes_;
     std::vector<double> columns_, rows_;

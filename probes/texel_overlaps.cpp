@@ -15,17 +15,19 @@ namespace {
 using Points = std::vector<glm::dvec2>;
 
 // Between the line and the curve of one side of a cell, relative to the cell.
-constexpr double kSideError = 0x1p-24;
+constexpr double kSideError = 0x1p-27;
 // Between a piece and its curve, relative to how thick the cell is: sides of a thin cell do not cross each other.
 constexpr double kThinPiece = 0.01;
 // Between a straight piece of a source's rim and the arc, relative to the same: less than a tenth of it is misplaced.
-constexpr double kRimError = 8.0;
+constexpr double kRimError = 64.0;
 // And its length.
 constexpr double kRimPiece_texels = 0.25;
 // Halvings of a curve, at most.
 constexpr int kMostHalvings = 30;
 // Overlaps that are smaller, relative to the texel, come from the rounding of borders.
 constexpr double kSliver = 0x1p-36;
+// A texel of the result of which a smaller part is shown counts as behind the ball.
+constexpr double kLeastShown = 0x1p-17;
 // A singular direction has the azimuth of the curve at this part of it.
 constexpr double kNearSingular = 0x1p-20;
 
@@ -101,8 +103,8 @@ class RowCutter {
         for (int row = y_ * s_.cellsDown; row < (y_ + 1) * s_.cellsDown; row++) cutCells(row, texels);
         RowOverlaps result;
         result.first.push_back(0);
-        for (std::vector<TexelOverlap>& of : texels) {
-            append(of, result.overlaps);
+        for (int x = 0; x < s_.target.width; x++) {
+            append(texels[static_cast<size_t>(x)], s_.grid.solidAngle_sr(layer_, x, y_), result.overlaps);
             result.first.push_back(result.overlaps.size());
         }
         return result;
@@ -110,7 +112,7 @@ class RowCutter {
 
   private:
     // Sorted, those of one texel of the source together, without slivers, relative to the largest.
-    static void append(std::vector<TexelOverlap>& of, std::vector<TexelOverlap>& to) {
+    static void append(std::vector<TexelOverlap>& of, double texel_sr, std::vector<TexelOverlap>& to) {
         std::stable_sort(of.begin(), of.end(), [](const TexelOverlap& a, const TexelOverlap& b) {
             return std::array{a.layer, a.y, a.x} < std::array{b.layer, b.y, b.x};
         });
@@ -128,6 +130,7 @@ class RowCutter {
             all += one.weight;
             largest = std::max(largest, one.weight);
         }
+        if (!(all > kLeastShown * texel_sr)) return;
         for (const TexelOverlap& one : of)
             if (one.weight > kSliver * all) to.push_back({one.layer, one.x, one.y, one.weight / largest});
     }

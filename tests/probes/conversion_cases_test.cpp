@@ -110,8 +110,7 @@ TEST_CASE("BlindSpotsBehindABallAreNotValid") {
         const TexelGrid grid(result.shape);
         for (int y = 0; y < 32; y++)
             for (int x = 0; x < 64; x++) {
-                // The cone of half angle asin(1 / 3) around -Z; with several samples a texel may be partly
-                // outside.
+                // The cone of half angle asin(1 / 3) around -Z; by area a texel may be partly outside.
                 const double cosine = -grid.direction(0, x, y).z, edge = std::sqrt(1 - 1.0 / 9), texel = 0.06;
                 const bool isShown = result.valid[0].at(x, y) != 0;
                 if (cosine < edge) REQUIRE(isShown);
