@@ -8,6 +8,7 @@
 #include "numeric/text.h"
 #include "numeric/transform.h"
 #include "probes/convert.h"
+#include "probes/probe_statistics.h"
 #include "scene/profile_file.h"
 #include "scene/toml_reader.h"
 
@@ -16,8 +17,9 @@ namespace {
 
 struct ProbeConvertVerb {
     ProbeInput input;
-    std::string output, to, toLayout = "openexr", resampling = "bilinear", profile = "f32";
-    int width = 0, height = 0, samples = 4, threads = 0;
+    std::string output, to, toLayout = "openexr", resampling = std::string(nameOf(Resampling::area)),
+                            profile = "f32";
+    int width = 0, height = 0, threads = 0;
     double toBallDistance_radii = std::numeric_limits<double>::infinity(), rotation_deg = 0;
     bool upright = false;
 };
@@ -44,6 +46,23 @@ ProbeShape shapeOf(const ProbeConvertVerb& verb, const Probe& source) {
     return shape;
 }
 
+// Of points of a source whose texels are finer somewhere.
+void warnOfPointSampling(const ProbeConvertVerb& verb, const Probe& source, const ProbeConversion& conversion,
+                         const Probe& result) {
+    if (conversion.resampling == Resampling::area) return;
+    const double minification = minificationOf(source, conversion);
+    if (!(minification > kMinified)) return;
+    const auto mean = [&](const Probe& probe) {
+        const glm::dvec3 rgb = statisticsOf(probe, verb.threads).mean;
+        return (rgb.x + rgb.y + rgb.z) / 3.0;
+    };
+    printText(
+        stderr,
+        "etalon: warning: {}: {} takes points of the source, whose texels are up to {:.3g} times as fine as "
+        "the result's: the mean radiance was {:.6g} and is {:.6g}; --resample area keeps it\n",
+        printable(verb.input.file), verb.resampling, minification, mean(source), mean(result));
+}
+
 ExitCode runProbeConvert(const ProbeConvertVerb& verb) {
     if (std::filesystem::path(verb.output).extension() != ".exr")
         throw InputError(formatText("{}: probes are written as EXR files; name it .exr", verb.output));
@@ -53,7 +72,6 @@ ExitCode runProbeConvert(const ProbeConvertVerb& verb) {
     ProbeConversion conversion;
     conversion.shape = shapeOf(verb, source);
     conversion.resampling = *memberOf<Resampling>(verb.resampling);
-    conversion.samplesPerAxis = verb.samples;
     const Profile profile = loadProfile(verb.profile);
     conversion.fractionBits = profile.textureFractionBits;
     conversion.rule = profile.filterRule;
@@ -71,6 +89,8 @@ ExitCode runProbeConvert(const ProbeConvertVerb& verb) {
         return encodeExr(frameOfProbe(result, *memberOf<CubeLayout>(verb.toLayout)), verb.threads);
     }));
     file.commit();
+    progress.finish();
+    warnOfPointSampling(verb, source, conversion, result);
     return ExitCode::done;
 }
 
@@ -90,10 +110,10 @@ void addProbeConvert(Verb& probe) {
         .oneOf(kNames<CubeLayout>);
     verb.add("--to-ball-distance", options->toBallDistance_radii, "Of a mirror ball, in radii")
         .range(kLeastBallDistance_radii, std::numeric_limits<double>::infinity());
-    verb.add("--resample", options->resampling, "How texels are computed; area keeps energy")
+    verb.add("--resample", options->resampling,
+             "area: means over texels, keeps energy; bilinear, nearest: points of the source, for smooth or "
+             "unchanged texels where the result is no coarser")
         .oneOf(kNames<Resampling>);
-    verb.add("--samples", options->samples, "Of area: samples per axis and texel")
-        .range(1, kMaxSamplesPerAxis);
     verb.add("--rotate-y-deg", options->rotation_deg,
              "Turn the frame of the result about +Y, counter-clockwise from above")
         .range(-1e6, 1e6);

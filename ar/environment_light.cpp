@@ -9,6 +9,7 @@
 #include "probes/harmonics_lobes.h"
 #include "probes/irradiance.h"
 #include "probes/median_cut.h"
+#include "probes/probe_statistics.h"
 
 namespace etalon {
 namespace {
@@ -33,13 +34,23 @@ Probe probeOf(const SurfaceEnvironment& environment) {
     return probe;
 }
 
-CubeMap<float> facesOf(Probe probe, double factor) {
+CubeMap<float> facesOf(Probe probe, const glm::dvec3& factor) {
     CubeMap<float> cube;
     for (size_t f = 0; f < cube.faces.size(); f++) {
         cube.faces[f] = std::move(probe.radiance[f]);
-        for (float& value : cube.faces[f].values()) value = static_cast<float>(value * factor);
+        for (int c = 0; c < 3; c++)
+            for (float& value : cube.faces[f].plane(c)) value = static_cast<float>(value * factor[c]);
     }
     return cube;
+}
+
+// What brings the mean of a map over all directions to that of the radiance, for each channel; 1 where there is none.
+glm::dvec3 normalisationOf(const Probe& map, const Probe& radiance, int threads) {
+    const glm::dvec3 is = statisticsOf(map, threads).mean, should = statisticsOf(radiance, threads).mean;
+    glm::dvec3 factor(1);
+    for (int c = 0; c < 3; c++)
+        if (is[c] > 0 && should[c] > 0 && std::isfinite(should[c] / is[c])) factor[c] = should[c] / is[c];
+    return factor;
 }
 
 }  // namespace
@@ -97,18 +108,22 @@ EnvironmentIllumination environmentIllumination(const Environment& environment,
         }
         case EnvironmentLightMethod::map:
             light.kind = EnvironmentLight::Kind::map;
-            light.map = facesOf(irradianceProbe(probe, cube, arithmetic, threads), 1);
+            light.map = facesOf(irradianceProbe(probe, cube, arithmetic, threads), glm::dvec3(1));
             break;
-        case EnvironmentLightMethod::blurred: {
+        case EnvironmentLightMethod::blurred:
+        case EnvironmentLightMethod::blurredNormalised: {
             // The reflective map in world axes, blurred with a kernel as wide as a face [Karlsson2005,
             // Sec. 3.1.5].
             ProbeConversion conversion;
             conversion.shape = cube;
-            conversion.resampling = Resampling::area;
             const Probe reflective = convertProbe(probe, conversion, arithmetic, threads);
             light.kind = EnvironmentLight::Kind::map;
-            light.map = facesOf(
-                blurredDiffuseMap(reflective, cube.width, cube.width / 2.0, profile.fragment, threads), kPi);
+            Probe blurred =
+                blurredDiffuseMap(reflective, cube.width, cube.width / 2.0, profile.fragment, threads);
+            const glm::dvec3 factor = environment.lighting == EnvironmentLightMethod::blurredNormalised
+                                          ? normalisationOf(blurred, probe, threads)
+                                          : glm::dvec3(1);
+            light.map = facesOf(std::move(blurred), scaledBy(factor, kPi));
             break;
         }
     }

@@ -150,9 +150,8 @@ class Planner : public std::enable_shared_from_this<Planner> {
                                                        : "",
                 "",
                 method == EnvironmentLightMethod::dominant ? PassNumbers::doubles : PassNumbers::environment,
-                method == EnvironmentLightMethod::map || method == EnvironmentLightMethod::blurred
-                    ? kFacesPerCube * squared(scene_.environment.mapSize) * 3 * kBytesPerFloat
-                    : 0),
+                isLightMap(method) ? kFacesPerCube * squared(scene_.environment.mapSize) * 3 * kBytesPerFloat
+                                   : 0),
             EnvironmentIllumination{},
             [this](const PassContext& context, const EnvironmentImage& image) {
                 return lightOfEnvironment(settings_, context, image);

@@ -209,11 +209,9 @@ EnvironmentIllumination lightOfEnvironment(const SceneSettings& settings, const 
                                            const EnvironmentImage& image) {
     const Scene& scene = *settings.scene;
     const Environment& environment = scene.environment;
-    const bool isBlurred = environment.lighting == EnvironmentLightMethod::blurred;
-    if (isBlurred || environment.lighting == EnvironmentLightMethod::map)
+    if (isLightMap(environment.lighting))
         requireSampling(scene, context.profile, context.profile.fragment, "a map of irradiance",
                         environment.line, environment.mapSize, environment.mapSize);
-    if (isBlurred) requireSampling(scene, context.profile, context.profile.environment, image);
     return environmentIllumination(environment, image.radiance, context.profile, settings.raster.threads);
 }
 

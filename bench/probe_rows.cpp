@@ -108,9 +108,11 @@ void addConversion(const std::string& name, const ProbeShape& from, const ProbeS
         const Amount amount{.pixels = static_cast<double>(texels(to)),
                             .bytes_touched = (texels(from) + texels(to)) * kRadiance_bytes};
         Probe result;
-        convertProbe(result, source, {to}, arithmetic, way.threads);
+        convertProbe(result, source, {.shape = to, .resampling = Resampling::bilinear}, arithmetic,
+                     way.threads);
         measure(state, amount, [&] {
-            convertProbe(result, source, {to}, arithmetic, way.threads);
+            convertProbe(result, source, {.shape = to, .resampling = Resampling::bilinear}, arithmetic,
+                         way.threads);
             return result.radiance[0].values().data();
         });
     });

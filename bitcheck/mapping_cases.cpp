@@ -25,7 +25,7 @@ std::vector<BitPlane> conversionsOf(const Profile& profile, int threads) {
     const auto convert = [&](const Probe& probe, const ProbeShape& shape, Resampling resampling,
                              bool isTurned) {
         return convertProbe(probe,
-                            {shape, isTurned ? rotation : glm::dmat3(1), resampling, 2,
+                            {shape, isTurned ? rotation : glm::dmat3(1), resampling,
                              profile.textureFractionBits, profile.filterRule},
                             profile.fragment, threads);
     };
@@ -54,6 +54,7 @@ std::vector<BitPlane> levels(int threads) {
     for (uint8_t& valid : sky.valid[0].values()) valid = random.chance(0.7) ? 1 : 0;
     ProbeConversion toCube;
     toCube.shape = {Mapping::cube, 9, 9};
+    toCube.resampling = Resampling::bilinear;
     Probe cube = convertProbe(probeOf(skyImage(32, 16), Mapping::latLong), toCube, Arithmetic::fp64, threads);
     std::vector<BitPlane> planes;
     for (const auto& [name, probe] : {std::pair("lat-long-", &sky), std::pair("cube-", &cube)}) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "probes/convert.h"
+#include "probes/texel_overlaps.h"
 
 namespace etalon {
 
@@ -22,7 +23,7 @@ struct ConversionJob {
     // A texel of the result may have no radiance.
     bool hasBlindSpots = false;
     Resampling resampling = Resampling::bilinear;
-    int samplesPerAxis = 1;
+    const TexelOverlaps* overlaps = nullptr;  // of area
     int fractionBits = kExactFraction;
     FilterRule rule = {};
     int threads = 0;

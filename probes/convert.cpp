@@ -1,6 +1,7 @@
 #include "probes/convert.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "numeric/check.h"
 #include "numeric/door.h"
@@ -38,6 +39,15 @@ std::vector<Image<float>> shownTexels(const Probe& probe) {
 // disc are shown; the rest is for the rounding of coarse arithmetics.
 double wholeRadius(const ProbeShape& shape) { return std::max(0.0, 1.0 - 4.0 / shape.width); }
 
+// True if all of a texel is on the disc.
+bool isWholeTexel(const ProbeShape& disc, int x, int y) {
+    const auto farthest = [&](int i) -> int64_t {
+        return std::max(std::abs(2 * i - disc.width), std::abs(2 * i + 2 - disc.width));
+    };
+    const int64_t size = disc.width;
+    return farthest(x) * farthest(x) + farthest(y) * farthest(y) <= size * size;
+}
+
 bool isIdentity(const glm::dmat3& m) {
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
@@ -70,8 +80,6 @@ void convertProbe(Probe& result, const Probe& source, const ProbeConversion& con
     ETALON_CHECK(&result != &source, "the result is the source");
     checkProbe(source);
     checkShape(conversion.shape);
-    ETALON_CHECK(conversion.samplesPerAxis >= 1 && conversion.samplesPerAxis <= kMaxSamplesPerAxis,
-                 "{} samples per axis", conversion.samplesPerAxis);
     const std::vector<Image<float>> shown = shownTexels(source);
     ConversionJob job;
     job.source = source.shape;
@@ -85,7 +93,9 @@ void convertProbe(Probe& result, const Probe& source, const ProbeConversion& con
     job.isTurned = !isIdentity(job.turn);
     job.hasBlindSpots = !shown.empty() || isDisc(conversion.shape.mapping);
     job.resampling = conversion.resampling;
-    job.samplesPerAxis = conversion.samplesPerAxis;
+    std::optional<TexelOverlaps> overlaps;
+    if (conversion.resampling == Resampling::area)
+        job.overlaps = &overlaps.emplace(source.shape, conversion.shape, job.turn);
     job.fractionBits = conversion.fractionBits;
     job.rule = conversion.rule;
     job.threads = threads;
@@ -108,6 +118,32 @@ void convertProbe(Probe& result, const Probe& source, const ProbeConversion& con
         return std::all_of(layer.values().begin(), layer.values().end(), [](uint8_t v) { return v != 0; });
     };
     if (std::all_of(result.valid.begin(), result.valid.end(), isWhole)) result.valid.clear();
+}
+
+double minificationOf(const Probe& source, const ProbeConversion& conversion) {
+    checkProbe(source);
+    const ProbeShape &from = source.shape, &to = conversion.shape;
+    const TexelGrid sourceGrid(from), grid(to);
+    const MappingKernel<double>::MappingSettings settings = mappingSettingsOf<MappingKernel<double>>(from);
+    const glm::dmat3 turn = turnBetween(conversion.rotation, source.rotation);
+    MappingKernel<double> kernel;
+    const auto texelOf = [](double u, int size) { return std::min(static_cast<int>(u * size), size - 1); };
+    double largest = 0;
+    for (int layer = 0; layer < to.layers(); layer++)
+        for (int y = 0; y < to.height; y++)
+            for (int x = 0; x < to.width; x++) {
+                const glm::dvec3 d = grid.direction(layer, x, y);
+                const auto p = kernel.mappingPoint({turn[0].x * d.x + (turn[1].x * d.y + turn[2].x * d.z),
+                                                    turn[0].y * d.x + (turn[1].y * d.y + turn[2].y * d.z),
+                                                    turn[0].z * d.x + (turn[1].z * d.y + turn[2].z * d.z)},
+                                                   settings);
+                const int column = texelOf(p.u, from.width), row = texelOf(p.v, from.height);
+                // The rim cuts texels off, which makes them no finer.
+                if (isDisc(from.mapping) && !isWholeTexel(from, column, row)) continue;
+                largest = std::max(largest, grid.solidAngle_sr(layer, x, y) /
+                                                sourceGrid.solidAngle_sr(p.layer, column, row));
+            }
+    return largest;
 }
 
 Probe probeOf(const CubeMap<float>& cube) {

@@ -56,6 +56,12 @@ class ConversionWriter {
         else
             return kernel.sampleProbe(radiance_, shown_, p, sampling_);
     }
+    // Of the overlaps that the kernel holds.
+    Sample meanOfOverlaps(Kernel& kernel) const {
+        const auto mean = kernel.meanOfOverlaps(radiance_, shown_, sampling_.isMasked,
+                                                static_cast<int>(kernel.overlaps.weights.size()));
+        return kernel.probeSample(mean.rgb, mean.weight > T(0.0));
+    }
     // Texels first ... first + active - 1 of a row, whose centres the source shows at middle().
     template <class Middle>
     void write(Kernel& kernel, int layer, size_t first, int active, int y, Sample sample,
@@ -99,46 +105,73 @@ class ConversionWriter {
     typename Kernel::Sampling nearest_;
 };
 
+// The texels of a row from a column on as means of what they cover of the source.
+template <class T>
+void selectOverlaps(ConversionKernel<T>& kernel, const RowOverlaps& row, size_t first, int active) {
+    using Integer = typename ConversionKernel<T>::integer;
+    size_t count = 0;
+    const auto countOf = [&](size_t x) { return row.first[x + 1] - row.first[x]; };
+    for (size_t x = first; x < first + static_cast<size_t>(active); x++) count = std::max(count, countOf(x));
+    LanedOverlaps<T>& overlaps = kernel.overlaps;
+    overlaps.layers.resize(count);
+    overlaps.columns.resize(count);
+    overlaps.rows.resize(count);
+    overlaps.weights.resize(count);
+    for (size_t k = 0; k < count; k++) {
+        const auto overlapOf = [&](int lane) -> TexelOverlap {
+            const size_t x = first + static_cast<size_t>(std::min(lane, active - 1));
+            return k < countOf(x) ? row.overlaps[row.first[x] + k] : TexelOverlap{0, 0, 0, 0.0};
+        };
+        const auto integers = [&](auto member) -> Integer {
+            if constexpr (Number<T>::lanes == 1)
+                return overlapOf(0).*member;
+            else
+                return Integer::generate([&](int lane) { return overlapOf(lane).*member; });
+        };
+        overlaps.layers[k] = integers(&TexelOverlap::layer);
+        overlaps.columns[k] = integers(&TexelOverlap::x);
+        overlaps.rows[k] = integers(&TexelOverlap::y);
+        overlaps.weights[k] = Number<T>::generate([&](int lane) { return overlapOf(lane).weight; });
+    }
+}
+
 // Texel by texel.
 template <class T>
 void convertTexels(const ConversionJob& job, const ConversionWriter<T>& writer) {
     using Kernel = ConversionKernel<T>;
     using vec3 = typename Kernel::vec3;
     constexpr int kWidth = Number<T>::lanes;
-    const int parts = job.resampling == Resampling::area ? job.samplesPerAxis : 1;
-    const LanedDirections<T> centres(job.target, 1), directions(job.target, parts);
+    const LanedDirections<T> centres(job.target);
     const auto turnRow = [&](int row) {
         return vec3(T(job.turn[0][row]), T(job.turn[1][row]), T(job.turn[2][row]));
     };
     const typename Kernel::TexelConversion conversion{
-        directions.settings(), writer.source(), job.isTurned ? 1 : 0, turnRow(0), turnRow(1), turnRow(2)};
+        centres.settings(), writer.source(), job.isTurned ? 1 : 0, turnRow(0), turnRow(1), turnRow(2)};
     parallelForRowBlocks(job.target.height, job.threads, [&](int y0, int y1) {
         Kernel kernel;
         kernel.conversion = conversion;
-        kernel.writer = &writer;
-        const typename LanedDirections<T>::SolidAngles solidAngles(directions, y0, y1);
-        for (int layer = 0; layer < job.target.layers(); layer++)
+        std::vector<RowOverlaps> overlaps(static_cast<size_t>(y1 - y0));
+        for (int layer = 0; layer < job.target.layers(); layer++) {
+            if (job.overlaps != nullptr)
+                for (int y = y0; y < y1; y++)
+                    overlaps[static_cast<size_t>(y - y0)] = job.overlaps->ofRow(layer, y);
             forEachLaneGroup<kWidth>(static_cast<size_t>(job.target.width), [&](size_t first, int active) {
                 for (int y = y0; y < y1; y++) {
-                    const typename Kernel::integer ofLayer(layer);
                     const auto middle = [&] {
                         centres.select(kernel, first, y);
-                        return kernel.partPoint(ofLayer, 0, 0);
+                        return kernel.texelPoint(typename Kernel::integer(layer));
                     };
                     typename Kernel::ProbeSample sample;
-                    if (parts == 1) {
+                    if (job.overlaps == nullptr) {
                         sample = writer.sampleAt(kernel, middle());
                     } else {
-                        directions.select(kernel, first, y);
-                        kernel.texels.solidAngles = solidAngles.of(y);
-                        const auto mean = kernel.meanOfParts(ofLayer, parts);
-                        sample = kernel.probeSample(mean.rgb, mean.weight > T(0.0));
-                        if (kernel.isAny(!sample.isShown))
-                            sample = kernel.shownOr(sample, writer.sampleAt(kernel, middle()));
+                        selectOverlaps(kernel, overlaps[static_cast<size_t>(y - y0)], first, active);
+                        sample = writer.meanOfOverlaps(kernel);
                     }
                     writer.write(kernel, layer, first, active, y, sample, middle);
                 }
             });
+        }
     });
 }
 

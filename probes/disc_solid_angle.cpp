@@ -41,12 +41,13 @@ class Disc {
         const double length = (outerSquare - innerSquare) / square(size_) / (outer + inner);
         if (isOrthographic_) return x.count * (2.0 * length);
         if (isAngular_)
-            return x.count * integral(inner, length, [&](double at) { return angularTerm(at * at + y * y); });
+            return x.count *
+                   integral(inner, length, [&](double at) { return discTerm(at, y, true, settings_); });
         // x = reach sin(psi) takes the square root at the rim away.
         const double reach = std::sqrt(reachSquare) / size_;
         const double psi = arc(reachSquare, innerSquare, 0.0);
         return x.count * integral(psi, arc(reachSquare, outerSquare, innerSquare), [&](double at) {
-                   return reach * cosOf(at) * ballTerm(reach * sinOf(at), y);
+                   return reach * cosOf(at) * discTerm(reach * sinOf(at), y, false, settings_);
                });
     }
 
@@ -96,27 +97,27 @@ class Disc {
         return sum;
     }
 
-    // G / r^2 of the angular map: 2 sin^2(pi r / 2) / r^2
-    static double angularTerm(double square) {
-        const double radius = std::sqrt(square);
-        const double s = radius > 0.0 ? sinOf(1.5707963267948966 * radius) / radius : 1.5707963267948966;
-        return 2.0 * (s * s);
-    }
-    // G / r^2 of a near ball: sin^2 / (1 + cos) or, in the lower half of the sphere, 1 - cos, over r^2.
-    double ballTerm(double x, double y) const {
-        const double square = x * x + y * y;
-        const double slope = (2.0 - settings_.k) / settings_.root;
-        if (square == 0.0) return 0.5 * slope * slope;
-        const glm::dvec3 d = MappingKernel<double>{}.ballDirection(x, y, settings_);
-        return (d.z < 0.0 ? 1.0 - d.z : (d.x * d.x + d.y * d.y) / (1.0 + d.z)) / square;
-    }
-
     int size_;
     bool isOrthographic_, isAngular_;
     MappingKernel<double>::MappingSettings settings_;
 };
 
 }  // namespace
+
+double discTerm(double x, double y, bool isAngular, const MappingKernel<double>::MappingSettings& settings) {
+    const double square = x * x + y * y;
+    if (isAngular) {
+        // 2 sin^2(pi r / 2) / r^2
+        const double radius = std::sqrt(square);
+        const double s = radius > 0.0 ? sinOf(1.5707963267948966 * radius) / radius : 1.5707963267948966;
+        return 2.0 * (s * s);
+    }
+    // sin^2 / (1 + cos) or, in the lower half of the sphere, 1 - cos, over r^2.
+    const double slope = (2.0 - settings.k) / settings.root;
+    if (square == 0.0) return 0.5 * slope * slope;
+    const glm::dvec3 d = MappingKernel<double>{}.ballDirection(x, y, settings);
+    return (d.z < 0.0 ? 1.0 - d.z : (d.x * d.x + d.y * d.y) / (1.0 + d.z)) / square;
+}
 
 std::vector<double> discSolidAngles_sr(const ProbeShape& shape) {
     const Disc disc(shape);

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "probes/probe.h"
+#include "probes/mapping.h"
 
 namespace etalon {
 
@@ -16,5 +16,8 @@ namespace etalon {
 // is G(1) dphi. Texels that share an edge share the edge's number, so that their sum is that of the rim but
 // for rounding.
 std::vector<double> discSolidAngles_sr(const ProbeShape& shape);
+
+// G / r^2 at a point of the unit disc, of the angular map or a mirror ball.
+double discTerm(double x, double y, bool isAngular, const MappingKernel<double>::MappingSettings& settings);
 
 }  // namespace etalon

@@ -32,14 +32,14 @@ class MirroredAngles {
 
     // The columns of the target's side faces, if it is a cube.
     explicit MirroredAngles(const ProbeShape& target)
-        : target_(target), directions_(target, 1), size_(static_cast<size_t>(target.width)) {
+        : target_(target), directions_(target), size_(static_cast<size_t>(target.width)) {
         if (!isCube()) return;
         Kernel kernel;
         for (int layer = 0; layer < kCubeFaces; layer++) {
             std::vector<Stored>& columns = ofColumns_.emplace_back(size_);
             if (isSide(layer))
                 forEachLaneGroup<kWidth>(size_, [&](size_t first, int active) {
-                    storeActive(kernel.longitudeOf(directions_.at(kernel, layer, first, 0, 0, 0)),
+                    storeActive(kernel.longitudeOf(directions_.at(kernel, layer, first, 0)),
                                 columns.data() + first, active);
                 });
         }
@@ -105,7 +105,7 @@ class MirroredAngles {
         Kernel kernel;
         forEachLaneGroup<kWidth>(size_ / 2, [&](size_t first, int active) {
             T left, mirror;
-            value(kernel, directions_.at(kernel, layer, first, 0, y, 0), left, mirror);
+            value(kernel, directions_.at(kernel, layer, first, y), left, mirror);
             storeActive(left, angles.data() + first, active);
             storeActive(mirror, right.data() + first, active);
         });

@@ -73,19 +73,6 @@ void checkProbe(const Probe& probe) {
     if (!probe.valid.empty()) checkLayers(probe.valid, probe.shape, 1, "validity");
 }
 
-std::vector<double> cubeRowSolidAngles_sr(int size, int y) {
-    std::vector<double> solidAngle_sr;
-    double leftUpper = cubeCornerSolidAngle_sr(size, 0, y),
-           leftLower = cubeCornerSolidAngle_sr(size, 0, y + 1);
-    for (int x = 0; x < size; x++) {
-        const double rightUpper = cubeCornerSolidAngle_sr(size, x + 1, y);
-        const double rightLower = cubeCornerSolidAngle_sr(size, x + 1, y + 1);
-        solidAngle_sr.push_back((rightLower - leftLower) - (rightUpper - leftUpper));
-        leftUpper = rightUpper, leftLower = rightLower;
-    }
-    return solidAngle_sr;
-}
-
 double cubeTexelSolidAngle_sr(int size, int x, int y) {
     const auto corner = [&](int i, int j) { return cubeCornerSolidAngle_sr(size, i, j); };
     return (corner(x + 1, y + 1) - corner(x, y + 1)) - (corner(x + 1, y) - corner(x, y));

@@ -19,8 +19,6 @@ namespace etalon {
 // The solid angle of texel (x, y) of a cube face of size x size texels, in steradians: four corner terms
 // atan2(s t, sqrt(s^2 + t^2 + 1)). The texels of six faces add up to 4 pi (relative 1e-14).
 double cubeTexelSolidAngle_sr(int size, int x, int y);
-// The same for all texels of row y, with the same bits.
-std::vector<double> cubeRowSolidAngles_sr(int size, int y);
 
 // True if directions lie on a disc, so that texels in the corners show none.
 inline bool isDisc(Mapping mapping) { return mapping == Mapping::angular || mapping == Mapping::mirrorBall; }

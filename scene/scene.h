@@ -86,11 +86,27 @@ constexpr std::string_view passNameOf(ShadowMethod method) {
 enum class EnvironmentKind : uint8_t { none, constant, file };
 
 // How the environment lights surfaces, besides being seen and mirrored (docs/scene_format.md).
-enum class EnvironmentLightMethod : uint8_t { none, lights, dominant, harmonics, exact, map, blurred };
+enum class EnvironmentLightMethod : uint8_t {
+    none,
+    lights,
+    dominant,
+    harmonics,
+    exact,
+    map,
+    blurred,
+    blurredNormalised
+};
 template <>
-inline constexpr auto kNames<EnvironmentLightMethod> =
-    std::to_array<std::string_view>({"none", "lights", "dominant", "harmonics", "exact", "map", "blurred"});
-static_assert(isLastName(EnvironmentLightMethod::blurred));
+inline constexpr auto kNames<EnvironmentLightMethod> = std::to_array<std::string_view>(
+    {"none", "lights", "dominant", "harmonics", "exact", "map", "blurred", "blurred_normalised"});
+static_assert(isLastName(EnvironmentLightMethod::blurredNormalised));
+constexpr bool isBlurredMap(EnvironmentLightMethod method) {
+    return method == EnvironmentLightMethod::blurred || method == EnvironmentLightMethod::blurredNormalised;
+}
+// Whether a cube map holds the light.
+constexpr bool isLightMap(EnvironmentLightMethod method) {
+    return method == EnvironmentLightMethod::map || isBlurredMap(method);
+}
 // Most lights of a median cut, largest edge of a map of irradiance.
 inline constexpr int kMaxEnvironmentLights = 65536, kMaxLightMapSize = 512;
 // Most reflections of mirrors in mirrors.
@@ -111,7 +127,7 @@ struct Environment {
     double rotation_deg = 0;
     EnvironmentLightMethod lighting = EnvironmentLightMethod::none;
     int lightCount = 64;  // of lights: a power of two
-    int mapSize = 32;     // of map and blurred: texels along a face
+    int mapSize = 32;     // where isLightMap(lighting): texels along a face
     // Of lights and dominant: shadows of the `shadowLights` lights, if there are more, that stand for the smallest angles;
     // or, where shadowShare is above 0, of those with at least this part of the environment's energy, no more
     // than kMaxShadowLights (shadows/casting_lights.h).

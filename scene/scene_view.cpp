@@ -86,9 +86,8 @@ void readLighting(const TableReader& reader, Environment& environment) {
     environment.lighting = reader.member("lighting", environment.lighting);
     if (environment.lighting != EnvironmentLightMethod::lights)
         reader.forbid("lights", "needs lighting = \"lights\"");
-    if (environment.lighting != EnvironmentLightMethod::map &&
-        environment.lighting != EnvironmentLightMethod::blurred)
-        reader.forbid("map_size", "needs lighting = \"map\" or \"blurred\"");
+    if (!isLightMap(environment.lighting))
+        reader.forbid("map_size", "needs lighting = \"map\", \"blurred\" or \"blurred_normalised\"");
     if (reader.has("lights")) {
         environment.lightCount = reader.integer("lights");
         if (!std::has_single_bit(static_cast<unsigned>(environment.lightCount)))

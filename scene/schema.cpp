@@ -216,7 +216,7 @@ TableSchema makeTable(SceneTable table) {
                                    "of `lights`: directional lights from a median cut"),
                            formatText("a power of two, 1 to {}", kMaxEnvironmentLights)),
                  integer({"map_size"}, 1, kMaxLightMapSize, text(environment.mapSize),
-                         "of `map` and `blurred`: texels along a face of the cube map"),
+                         "of `map`, `blurred` and `blurred_normalised`: texels along a face of the cube map"),
                  shadowKey("of the lights of `lights` and `dominant`: see [shadows](#shadows)")}};
         case SceneTable::material:
             return {

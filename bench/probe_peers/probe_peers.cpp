@@ -69,8 +69,12 @@ void addAll() {
     empty.shape = kLargeCube;
     empty.radiance.assign(6, Image<float>(kLargeCube.width, kLargeCube.height, 3));
     addMaker(
-        "etalon", [=](Probe& cube) { convertProbe(cube, latLong, {kLargeCube}, Arithmetic::fp32, 1); }, empty,
-        true);
+        "etalon",
+        [=](Probe& cube) {
+            convertProbe(cube, latLong, {.shape = kLargeCube, .resampling = Resampling::bilinear},
+                         Arithmetic::fp32, 1);
+        },
+        empty, true);
 #ifdef ETALON_HAS_OPENCV
     addMaker("opencv", openCvCubes(latLong, kLargeCube), empty, false);
 #endif

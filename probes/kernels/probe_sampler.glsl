@@ -203,6 +203,12 @@ struct ProbeMean {
     vec3 rgb;
     real weight;
 };
+ProbeMean noSamples() {
+    ProbeMean m;
+    m.rgb = vec3(real(0.0), real(0.0), real(0.0));
+    m.weight = real(0.0);
+    return m;
+}
 real meanStep(real mean, real value, real share) { return mean + (value - mean) * share; }
 ProbeMean addSample(ProbeMean m, ProbeSample value, real w) {
     boolean isFirst = !(m.weight > real(0.0));
@@ -235,13 +241,4 @@ real nearestDistance(texture distances, texture shown, MappingPoint p, ProbeSamp
     boolean counts = isShown && p.isShown;
     if (s.isMasked != 0) counts = counts && isShownTexel(shown, t);
     return select(counts, fetchReal(distances, t.face, t.x, t.y), real(0.0));
-}
-
-// The weight of a point of an image that is a disc or octahedral; 0 beyond the disc.
-real discWeight(real u, real v, MappingSettings m) {
-    real x = real(2.0) * u - real(1.0);
-    real y = real(1.0) - real(2.0) * v;
-    real density = discDensity(x, y, m);
-    if (m.mapping == 4) return density;
-    return select(x * x + y * y < real(1.0), density, real(0.0));
 }

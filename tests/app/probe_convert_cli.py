@@ -41,7 +41,7 @@ class ProbeConvert(cli_case.CliCase):
         self.assertEqual(self.on_terminal(*convert), "")
         text = self.on_slow_terminal(
             r"converting: (step \d+, )?\d+ %, \d+ s left",
-            lambda width: (*convert, "--resample", "area", "--samples", 16, "--width", width), (100, 200, 400, 800))
+            lambda width: (*convert, "--width", width), (400, 600, 900, 1400, 2100))
         self.assertTrue(text.endswith("\x1b[K"))
 
     def test_what_is_no_radiance_is_counted(self):
@@ -53,16 +53,40 @@ class ProbeConvert(cli_case.CliCase):
 
     def test_every_mapping_is_written_and_told_by_its_file(self):
         for mapping in ("latlong", "cube", "angular", "mirror_ball", "octahedral", "latlong_pedersen"):
-            self.convert("sky.pfm", "--to", mapping, "-o", "a.exr", "--resample", "area")
+            self.convert("sky.pfm", "--to", mapping, "-o", "a.exr")
             report = self.info("a.exr")
             self.assertEqual(report["mapping"], mapping)
-            self.assertAlmostEqual(report["solid_angle_sr"], 4 * math.pi, delta=0.02)
+            self.assertAlmostEqual(report["solid_angle_sr"], 4 * math.pi, delta=1e-6)
             for found, mean in zip(report["mean_radiance"], (16.5, 1.5, 3.0)):
-                self.assertAlmostEqual(found, mean, delta=0.02 * mean)
+                self.assertAlmostEqual(found, mean, delta=1e-5 * mean)
             # And back: the upper half is still the sky.
             self.convert("a.exr", "--to", "latlong", "--width", 32, "-o", "b.exr")
             up, down = (self.info("b.exr")["irradiance"][axis][1] for axis in ("+y", "-y"))
             self.assertAlmostEqual(up / down, 2.0, delta=0.05)
+
+    def test_a_small_sun_is_kept_and_samples_that_lose_it_warn(self):
+        sun = lambda x, y: (5e4, 5e4, 5e4) if (x, y) == (83, 41) else (1.0, 1.0, 1.0)
+        (self.folder / "sun.pfm").write_bytes(pfm(256, 128, sun))
+        mean = self.info("sun.pfm")["mean_radiance"][0]
+        self.assertGreater(mean, 2)
+        for mapping, width in (("latlong", 32), ("cube", 16), ("octahedral", 500)):
+            with self.subTest(mapping=mapping):
+                convert = ("probe", "convert", "sun.pfm", "--to", mapping, "--width", width, "-o", "a.exr")
+                self.expect(0, *convert)
+                self.assertAlmostEqual(self.info("a.exr")["mean_radiance"][0], mean, delta=1e-5 * mean)
+        for resample in ("bilinear", "nearest"):
+            convert = ("probe", "convert", "sun.pfm", "--to", "latlong", "--width", 32, "-o", "a.exr")
+            result = self.run_program(*convert, "--resample", resample)
+            self.assertEqual(result.returncode, 0)
+            said = result.stderr
+            found = self.info("a.exr")["mean_radiance"][0]
+            self.assertLess(found, 0.6 * mean)
+            self.assertEqual(said.count("\n"), 1)
+            self.assertIn("etalon: warning: sun.pfm: " + resample, said)
+            self.assertIn(f"was {mean:.6g} and is {found:.6g}", said)
+        # Nothing is finer than the result's texels.
+        self.expect(0, "probe", "convert", "sun.pfm", "--to", "latlong", "--width", 512, "-o", "a.exr",
+                    "--resample", "bilinear")
 
     def test_cube_layouts_hold_the_same_probe(self):
         means = []

@@ -119,9 +119,9 @@ class Profiles(CliCase):
         (self.folder / "sky.pfm").write_bytes(pfm(16, 8, [i % 7 + 0.3 for i in range(3 * 16 * 8)]))
         self.write("half.toml", 'environment = "fp16"\n')
         self.write("same.toml", 'environment = "fp64"\n')
-        for lighting in ("harmonics", "map", "exact", "lights", "blurred"):
+        for lighting in ("harmonics", "map", "exact", "lights", "blurred", "blurred_normalised"):
             sky = f'[environment]\nfile = "sky.pfm"\nlighting = "{lighting}"\n'
-            if lighting in ("map", "blurred"):
+            if lighting in ("map", "blurred", "blurred_normalised"):
                 sky += "map_size = 8\n"
             scene = self.write("sky.toml", SCENE.format(render="") + sky)
             with self.subTest(lighting=lighting):

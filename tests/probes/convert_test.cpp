@@ -99,8 +99,7 @@ TEST_CASE("ConstantProbesKeepTheirConstantInEveryMappingAndArithmetic") {
                     const Probe source = probeOfFunction(
                         shapeOf(from, 6), [](const glm::dvec3&) { return glm::dvec3(1, 0.75, 320); });
                     const Probe result =
-                        convertProbe(source, {shapeOf(to, 9), glm::dmat3(1), resampling, 2, kExactFraction},
-                                     arithmetic, 1);
+                        convertProbe(source, {shapeOf(to, 9), glm::dmat3(1), resampling}, arithmetic, 1);
                     const bool hasRim = isDisc(to);
                     CHECK(result.valid.empty() == !hasRim);
                     bool isConstant = true;
@@ -120,7 +119,8 @@ TEST_CASE("ConversionToACubeIsThePassOfMirrors") {
     const Probe source = probeOf(image, Mapping::latLong);
     for (const Arithmetic arithmetic : {Arithmetic::fp32, Arithmetic::fp16}) {
         for (const int size : {9, 16}) {
-            const Probe cube = convertProbe(source, {{Mapping::cube, size, size}}, arithmetic, 2);
+            const Probe cube = convertProbe(
+                source, {{Mapping::cube, size, size}, glm::dmat3(1), Resampling::bilinear}, arithmetic, 2);
             CHECK(sameBits(
                 cube, probeOf(passesIn<MappingPasses>(arithmetic)->cubeFromLatLong(image, size, {}, 1))));
         }
@@ -163,14 +163,16 @@ TEST_CASE("ConversionsDependOnNoThreadsAndLanes") {
     const Probe cube = probeOfFunction(shapeOf(Mapping::cube, 7), analyticRadiance);
     for (const Mapping to : kMappings)
         for (const Resampling resampling : {Resampling::bilinear, Resampling::area}) {
-            ProbeConversion conversion{shapeOf(to, 21), rotationAboutAxis(0, 0.3), resampling, 3};
+            ProbeConversion conversion{shapeOf(to, 21), rotationAboutAxis(0, 0.3), resampling};
             conversion.shape.ballDistance_radii = 4;
             const Probe one = convertProbe(cube, conversion, Arithmetic::fp32, 1);
             CHECK(sameBits(one, convertProbe(cube, conversion, Arithmetic::fp32, 3)));
             ConversionJob job;
             job.source = cube.shape, job.target = conversion.shape, job.radiance = cube.radiance;
             job.turn = rotationAboutAxis(0, 0.3), job.isTurned = true, job.hasBlindSpots = isDisc(to);
-            job.resampling = resampling, job.samplesPerAxis = 3, job.threads = 1;
+            job.resampling = resampling, job.threads = 1;
+            const TexelOverlaps overlaps(job.source, job.target, job.turn);
+            if (resampling == Resampling::area) job.overlaps = &overlaps;
             Probe images = one;
             for (Image<float>& layer : images.radiance) layer.fill(-1);
             convertImages<float>(job, images);
@@ -201,7 +203,7 @@ TEST_CASE("DirectionsSurviveConversionWithinTheirGeometricError") {
         for (const Mapping to : {Mapping::latLong, Mapping::cube, Mapping::octahedral}) {
             const ProbeShape shape = shapeOf(from, from == Mapping::cube ? 256 : 512);
             const Probe source = probeOfFunction(shape, [](const glm::dvec3& d) { return d; });
-            const Probe result = convertProbe(source, {shapeOf(to, 45)});
+            const Probe result = convertProbe(source, {shapeOf(to, 45), glm::dmat3(1), Resampling::bilinear});
             const TexelGrid grid(result.shape);
             MappingKernel<double> kernel;
             const auto settings = mappingSettingsOf<MappingKernel<double>>(shape);
@@ -238,7 +240,8 @@ TEST_CASE("PlacesSurviveConversionWithinTheirGeometricError") {
                     layer.at(x, y, 0) = static_cast<float>(x + 0.5);
                     layer.at(x, y, 1) = static_cast<float>(y + 0.5);
                 }
-        const Probe result = convertProbe(source, {shapeOf(Mapping::cube, 45), rotationAboutAxis(1, 0.7)});
+        const Probe result = convertProbe(
+            source, {shapeOf(Mapping::cube, 45), rotationAboutAxis(1, 0.7), Resampling::bilinear});
         const TexelGrid grid(result.shape);
         MappingKernel<double> kernel;
         const auto settings = mappingSettingsOf<MappingKernel<double>>(shape);
@@ -264,8 +267,10 @@ TEST_CASE("PlacesSurviveConversionWithinTheirGeometricError") {
 TEST_CASE("RoundTripsOfAnAnalyticRadianceConvergeAtTheirOrder") {
     const auto error = [](Mapping by, int size) {
         const Probe source = probeOfFunction(shapeOf(Mapping::latLong, size), analyticRadiance);
-        const Probe there = convertProbe(source, {shapeOf(by, size)}, Arithmetic::fp64);
-        const Probe back = convertProbe(there, {source.shape}, Arithmetic::fp64);
+        const Probe there =
+            convertProbe(source, {shapeOf(by, size), glm::dmat3(1), Resampling::bilinear}, Arithmetic::fp64);
+        const Probe back =
+            convertProbe(there, {source.shape, glm::dmat3(1), Resampling::bilinear}, Arithmetic::fp64);
         const TexelGrid grid(source.shape);
         double square = 0;
         forEachTexel(back, [&](int layer, int x, int y, bool isValid, const glm::dvec3& value) {
