@@ -112,15 +112,15 @@ struct FloatTexts {
     static integer bitsOf(real a) { return __builtin_bit_cast(integer, a); }
     static real realFromBits(integer bits) { return __builtin_bit_cast(real, bits); }
 // The entry of a list of 16 or 32 numbers at each lane's index.
-#define table16(index, ...)                                   \
-    [](integer at) {                                          \
-        static constexpr float kEntries[16] = {__VA_ARGS__};  \
-        return entriesOf(kEntries, at);                       \
+#define table16(index, ...)                                  \
+    [](integer at) {                                         \
+        static constexpr float kEntries[16] = {__VA_ARGS__}; \
+        return entriesOf(kEntries, at);                      \
     }(index)
-#define table32(index, ...)                                   \
-    [](integer at) {                                          \
-        static constexpr float kEntries[32] = {__VA_ARGS__};  \
-        return entriesOf(kEntries, at);                       \
+#define table32(index, ...)                                  \
+    [](integer at) {                                         \
+        static constexpr float kEntries[32] = {__VA_ARGS__}; \
+        return entriesOf(kEntries, at);                      \
     }(index)
 #include "numeric/kernels/pair.glsl"
 // The texts that need it.

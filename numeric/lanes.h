@@ -233,7 +233,8 @@ template <class S, int N>
 }
 // The entry of the table at each lane's index, which is inside it. Count is 16 or 32.
 template <size_t Count, int N>
-[[gnu::always_inline]] inline Lanes<float, N> entriesOf(const float (&table)[Count], Lanes<int32_t, N> index) {
+[[gnu::always_inline]] inline Lanes<float, N> entriesOf(const float (&table)[Count],
+                                                        Lanes<int32_t, N> index) {
     using L = Lanes<float, N>;
     if constexpr (requires { registers::entriesOf(table, index.v); })
         return L(registers::entriesOf(table, index.v));
