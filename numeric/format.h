@@ -46,7 +46,7 @@ enum class Division {
 
 // How powOf (numeric/elementary.h) is made.
 enum class Power {
-    exact,  // the power rounded once
+    exact,  // the power rounded once, or that of float (kFloatErrorUlp) where a format roundsAsFloat
     exp2log2,  // 2^(y log2 x), each of the three steps rounded once: hardware with instructions for log2 and exp2
     // only [MesaR300]. What the steps give stands: 0^0 is NaN where the format has it, else 1, and the
     // error grows with |y log2 x|

@@ -31,6 +31,6 @@ void etalonShadeFused(const etalon::bench::ShadingInput* input);
 void etalonShadeApproximate(const etalon::bench::ShadingInput* input);
 // Both, and the power in float arithmetic.
 void etalonShadeFast(const etalon::bench::ShadingInput* input);
-// AVX-512 intrinsics written by hand: the operations of the exact texts, and the same bits.
+// AVX-512 intrinsics written by hand: the operations of the exact texts, but for a power in double.
 void etalonShadeByHand(const etalon::bench::ShadingInput* input);
 }

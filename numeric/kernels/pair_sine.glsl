@@ -26,7 +26,7 @@ real cosineLow(integer k) {
 
 // An angle as a quadrant and the rest, |rest.high| <= pi/4 and a little. pi/2 is a sum of four floats, whose products with
 // the number of quadrants, which is below 2^20, are carried exactly but for the last. No float below 2^20 is nearer to a
-// multiple of pi/2 than 2^-34 of itself, but 0.
+// multiple of pi/2 than 2^-43 of itself, but 0 (found by trying all).
 struct ReducedReal {
     integer quadrant;  // 0, 1, 2 or 3
     RealPair rest;
