@@ -38,9 +38,9 @@ HeldMemory heldMemory(const Geometry& geometry) {
 HeldMemory heldMemory(const VisibleView& visible) {
     if (!visible.scene) return {};
     const RenderTarget& target = visible.scene->target;
-    return {
-        bytesOf(target.depth) + bytesOf(target.stencil) + bytesOf(target.wideStencil) + bytesOf(target.id),
-        bytesOf(target.triangles) + bytesOf(target.vertices) + bytesOf(target.clippedVertices)};
+    return {bytesOf(target.depth) + bytesOf(target.lowDepth) + bytesOf(target.stencil) +
+                bytesOf(target.wideStencil) + bytesOf(target.id),
+            bytesOf(target.triangles) + bytesOf(target.vertices) + bytesOf(target.clippedVertices)};
 }
 
 HeldMemory heldMemory(const EnvironmentImage& image) { return {0, bytesOf(image.radiance.latLong)}; }

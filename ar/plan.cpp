@@ -110,7 +110,7 @@ class Planner : public std::enable_shared_from_this<Planner> {
 
     void addVisibility(PassList& list) {
         PassText text = textOf("visibility", "every output is of what is visible", "", "",
-                               PassNumbers::vertexDepth, samples() * kBytesPerSample);
+                               PassNumbers::vertexDepth, samples() * bytesPerVisibleSample(*profile_));
         text.isRoot = true;
         results_->visibility = add(
             list, std::move(text), VisibleView{},
@@ -468,7 +468,7 @@ class Planner : public std::enable_shared_from_this<Planner> {
             list,
             textOf("shadows in view", "", nothing,
                    scene_.render.perVertex ? "the scene is lit per vertex, and no output shows shadows" : "",
-                   PassNumbers::vertexDepth, volumeMemory(scene_, samples())),
+                   PassNumbers::vertexDepth, volumeMemory(scene_, *profile_, samples())),
             ViewShadows{},
             [this](const PassContext& context, const Geometry& of, const SceneLights& lights,
                    const std::vector<const CastShadow*>& shadows) {

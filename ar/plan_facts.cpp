@@ -56,7 +56,7 @@ uint64_t shadowMemory(const LightShadow& shadow, bool isDirectional, size_t rece
            faces * (squared(width) + 2 * squared(width / 8 + 1)) * sizeof(double);
 }
 
-uint64_t volumeMemory(const Scene& scene, uint64_t samples) {
+uint64_t volumeMemory(const Scene& scene, const Profile& profile, uint64_t samples) {
     uint64_t volumes = 0;
     for (const SceneLight& light : scene.lights)
         volumes += light.shadow.method == ShadowMethod::volume ? 1 : 0;
@@ -65,7 +65,9 @@ uint64_t volumeMemory(const Scene& scene, uint64_t samples) {
         volumes += static_cast<uint64_t>(
             std::min(environment.shadowShare > 0 ? kMaxShadowLights : environment.shadowLights,
                      std::max(environment.lightCount, DominantLightSearch{}.maxLights)));
-    return volumes > 0 ? samples * (kBytesPerSample + kBytesOfWideStencil + sizeof(uint32_t) + volumes) : 0;
+    return volumes > 0
+               ? samples * (bytesPerVisibleSample(profile) + kBytesOfWideStencil + sizeof(uint32_t) + volumes)
+               : 0;
 }
 
 void requireSampling(const Scene& scene, const Profile& profile, const Arithmetic& arithmetic,

@@ -37,13 +37,16 @@ VisibilityFacts visibilityFacts(const VisibleScene& visible, size_t objects);
 // Sizes, for what passes say of their memory.
 inline constexpr int kFacesPerCube = 6;
 inline constexpr uint64_t kBytesPerSample = 4 + 4 + 1;  // depth, id, stencil
-inline constexpr uint64_t kBytesOfWideStencil = 4;      // per sample, where volumes have many triangles
+inline uint64_t bytesPerVisibleSample(const Profile& profile) {
+    return kBytesPerSample + (profile.depth == DepthFormat::d64f ? 4 : 0);
+}
+inline constexpr uint64_t kBytesOfWideStencil = 4;  // per sample, where volumes have many triangles
 inline uint64_t squared(int size) { return static_cast<uint64_t>(size) * static_cast<uint64_t>(size); }
 // Of the images that a light's shadows are looked up in, and of what they are drawn into, in bytes, at most. receivers:
 // the objects that planar shadows may fall on.
 uint64_t shadowMemory(const LightShadow& shadow, bool isDirectional, size_t receivers);
 // Of the shadow volumes of a view: its depths, and a mask for each light.
-uint64_t volumeMemory(const Scene& scene, uint64_t samples);
+uint64_t volumeMemory(const Scene& scene, const Profile& profile, uint64_t samples);
 // Of a shadow map as it is kept, in texels.
 uint64_t shadowMapTexels(const ShadowMapSettings& map, bool isDirectional);
 

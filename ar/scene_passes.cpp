@@ -231,7 +231,8 @@ OutputChannels windowDepthChannels(const VisibleView& visible) {
     Image<float> depth(target.width(), target.height());
     for (size_t i = 0; i < depth.pixelCount(); i++)
         depth.values()[i] =
-            static_cast<float>(depthFromStored(target.format.depth, target.depth.plane(0)[i]));
+            static_cast<float>(depthFromStored(target.format.depth, target.depth.plane(0)[i],
+                                               target.lowDepth.empty() ? 0 : target.lowDepth.plane(0)[i]));
     return {"window_depth", {{"depth.window", std::move(depth)}}};
 }
 

@@ -21,8 +21,10 @@ std::vector<BitPlane> planesOf(const RenderTarget& target) {
         draw.values()[i] = isEmpty ? kNoTriangle : target.triangle(id).draw;
         triangle.values()[i] = isEmpty ? kNoTriangle : target.triangle(id).triangle;
     }
-    return {planeOf("depth", target.depth), planeOf("stencil", target.stencil), planeOf("draw", draw),
-            planeOf("triangle", triangle)};
+    std::vector<BitPlane> planes = {planeOf("depth", target.depth), planeOf("stencil", target.stencil),
+                                    planeOf("draw", draw), planeOf("triangle", triangle)};
+    if (!target.lowDepth.empty()) planes.push_back(planeOf("lower half of depth", target.lowDepth));
+    return planes;
 }
 
 DrawState twoSided() {
@@ -107,6 +109,26 @@ std::vector<BitPlane> drawBiased(const RenderTargetFormat& format, const RasterO
     return planesOf(target);
 }
 
+// Triangles of one plane, but for the last bits of their vertices' depths.
+std::vector<BitPlane> drawCoplanar(DepthOrder order, const RasterOptions& options) {
+    Random random(6);
+    DrawList list;
+    std::vector<ClipVertex> vertices = triangleSoup(random, Soup::onSamples, 64, kWhole);
+    for (ClipVertex& v : vertices) {
+        const auto bits = static_cast<double>(random.next() % 4);
+        v.z = (0.5 * v.w + 0.125 * v.x + 0.0625 * v.y) * (1 + bits * 0x1p-52);
+    }
+    list.add(std::move(vertices), twoSided());
+    RenderTargetFormat format;
+    format.samples = 4;
+    format.depth = DepthFormat::d64f;
+    format.real = RasterReal::fp64;
+    format.depthOrder = order;
+    RenderTarget target(kSize_px, kSize_px, format);
+    rasterize(target, kWhole, list.draws(), options);
+    return planesOf(target);
+}
+
 // Every stencil operation and comparison, masks, and draws that write no depth or no id.
 std::vector<BitPlane> drawStencilled(const RenderTargetFormat& format, const RasterOptions& options) {
     constexpr int kOperations = 8, kCompares = 8;
@@ -165,6 +187,11 @@ void addRasterCases(std::vector<BitCase>& cases) {
     addMixed("d16-driver-fp64-16",
              "the same, D16 as drivers round it, fp64 depth, 16 samples, 4 subpixel bits",
              formatOf(16, 4, d16, driver, fp64));
+    addMixed("d64f-4", "the same, D64F, fp64 depth, 4 samples", formatOf(4, 8, d64f, exact, fp64));
+    add("coplanar-d64f", "nearly one plane, D64F, 4 samples",
+        [](const RasterOptions& options) { return drawCoplanar(DepthOrder::stored, options); });
+    add("coplanar-exact", "the same in the exact order of depths",
+        [](const RasterOptions& options) { return drawCoplanar(DepthOrder::exact, options); });
 
     add("clip", "every clipping plane, pieces of both signs, two viewports",
         [](const RasterOptions& options) {

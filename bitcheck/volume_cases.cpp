@@ -65,7 +65,9 @@ std::vector<BitPlane> planesOf(const std::vector<Occlusion>& occlusion) {
 }  // namespace
 
 void addVolumeCases(std::vector<BitCase>& cases) {
-    const Profile &fp32 = *findProfile("f32"), &fp64 = *findProfile("f64");
+    const Profile &fp32 = *findProfile("f32"), &fp64 = *findProfile("f64"), &truth = *findProfile("truth");
+    Profile reversed = fp32;
+    reversed.depthDirection = DepthDirection::reversed;
     cases.push_back({"shadows/volumes", "shadow volumes, z-fail", true, true, true,
                      [&fp32](const RasterOptions& options) {
                          return countVolumes(VolumeCounting::zFail, fp32, 1, options);
@@ -73,6 +75,14 @@ void addVolumeCases(std::vector<BitCase>& cases) {
     cases.push_back({"shadows/volumes-pass-fp64-4", "the same, z-pass, f64, 4 samples", true, true, true,
                      [&fp64](const RasterOptions& options) {
                          return countVolumes(VolumeCounting::zPass, fp64, 4, options);
+                     }});
+    cases.push_back({"shadows/volumes-reversed", "the same, z-fail, f32 with reversed depths", true, true,
+                     true, [reversed](const RasterOptions& options) {
+                         return countVolumes(VolumeCounting::zFail, reversed, 1, options);
+                     }});
+    cases.push_back({"shadows/volumes-truth", "the same, z-fail, truth", true, true, true,
+                     [&truth](const RasterOptions& options) {
+                         return countVolumes(VolumeCounting::zFail, truth, 1, options);
                      }});
     cases.push_back({"shadows/oracle", "triangles between points and lights", false, false, false,
                      [](const RasterOptions&) { return askOracle(); }});

@@ -15,6 +15,8 @@ RenderTargetFormat formatOf(const Profile& profile, int samples) {
     format.depthRounding = profile.depthRounding;
     format.real = profile.vertex;
     format.biasUnit = profile.biasUnit;
+    format.depthOrder = profile.depthOrder;
+    format.depthDirection = profile.depthDirection;
     return format;
 }
 
@@ -38,15 +40,17 @@ void findVisible(VisibleScene& visible, const SurfaceScene& scene, const std::ve
     visible.instanceOfDraw.clear();
     visible.vertices.resize(scene.instances.size());
 
+    const View drawn = inDirection(view, profile.depthDirection);
     std::vector<Draw> draws;
     for (uint32_t i = 0; i < scene.instances.size(); i++) {
         if (i == excluded) continue;
-        toClipSpace(placed[i], view, profile.vertex, options.threads, visible.vertices[i]);
+        toClipSpace(placed[i], drawn, profile.vertex, options.threads, visible.vertices[i]);
         Draw draw;
         draw.vertices = visible.vertices[i];
         draw.indices = placed[i].mesh->indices;
         if (!only.empty()) draw.only = only[i];
         draw.state.cull = scene.instances[i].twoSided ? CullMode::none : CullMode::back;
+        draw.state.depthCompare = nearerThan(profile.depthDirection);
         draw.state.frontIsClockwise = view.mirrored != placed[i].mirrored;
         draws.push_back(draw);
         visible.instanceOfDraw.push_back(i);

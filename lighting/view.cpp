@@ -51,7 +51,7 @@ View cameraView(const PinholeCamera& camera) {
     view.forward = scaledBy(camera.backward, -1.0);
     view.perX = scaledBy(camera.right, 1.0 / camera.fx);
     view.perY = scaledBy(camera.up, -1.0 / camera.fy);
-    view.near_m = camera.near_m;
+    view.near_m = camera.near_m, view.far_m = camera.far_m;
     return view;
 }
 
@@ -59,7 +59,20 @@ View withInfiniteFar(const View& view) {
     ETALON_CHECK(view.near_m > 0, "near {}", view.near_m);
     View infinite = view;
     infinite.worldToClip[2] = depthRow(view.worldToClip[3], view.near_m, HUGE_VAL);
+    infinite.far_m = HUGE_VAL;
     return infinite;
+}
+
+View inDirection(const View& view, DepthDirection direction) {
+    if (direction == DepthDirection::forward) return view;
+    ETALON_CHECK(view.near_m > 0, "near {}", view.near_m);
+    // z = (far - w) near / (far - near), of rows that are exact where far is infinite.
+    const double near_m = view.near_m, far_m = view.far_m,
+                 scale = std::isinf(far_m) ? 0 : near_m / (far_m - near_m);
+    View reversed = view;
+    reversed.worldToClip[2] = combine(-scale, view.worldToClip[3], 0, view.worldToClip[3]);
+    reversed.worldToClip[2].w += std::isinf(far_m) ? near_m : far_m * scale;
+    return reversed;
 }
 
 View cubeFaceView(CubeFace face, int size, const glm::dvec3& eye, double near_m, double far_m) {
@@ -88,7 +101,7 @@ View cubeFaceView(CubeFace face, int size, const glm::dvec3& eye, double near_m,
     view.perX = scaledBy(axes.s, 2.0 / size);
     view.perY = scaledBy(axes.t, 2.0 / size);
     view.mirrored = true;
-    view.near_m = near_m;
+    view.near_m = near_m, view.far_m = far_m;
     return view;
 }
 

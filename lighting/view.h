@@ -6,6 +6,7 @@
 #include <glm/vec4.hpp>
 
 #include "raster/cube_face.h"
+#include "raster/draw.h"
 
 namespace etalon {
 
@@ -17,8 +18,8 @@ struct View {
     glm::dvec3 eye{0};
     double centreX_px = 0, centreY_px = 0;
     glm::dvec3 forward{0, 0, -1}, perX{0}, perY{0};
-    bool mirrored = false;  // counter-clockwise faces appear clockwise (cube faces)
-    double near_m = 0;      // the near plane's distance; 0: not a perspective view
+    bool mirrored = false;         // counter-clockwise faces appear clockwise (cube faces)
+    double near_m = 0, far_m = 0;  // the planes' distances; 0: not a perspective view
 };
 
 // A pinhole camera. fx, fy, cx, cy in pixels (pixel centres at +0.5, row 0 on top); axes: the camera's right,
@@ -35,6 +36,10 @@ View cameraView(const PinholeCamera& camera);
 // The same perspective view with its far plane at infinity: z / w = 1 - near / distance, points at infinity
 // have z = w to the bit, and no finite point has z > w.
 View withInfiniteFar(const View& view);
+
+// The same perspective view with depths of that direction. Reversed: z / w = near (far / distance - 1) / (far - near), with
+// an infinite far plane near / distance.
+View inDirection(const View& view, DepthDirection direction);
 
 // One face of a cube map of size x size texels seen from `eye`, by the GL/Vulkan face table.
 View cubeFaceView(CubeFace face, int size, const glm::dvec3& eye, double near_m, double far_m);

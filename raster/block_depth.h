@@ -12,16 +12,16 @@ namespace etalon {
 // Large triangles are decided in blocks of 8 x 8 pixels first.
 inline constexpr int kBlockSize = 8;
 
-// Depths inside [0, 1], as numbers; 2 for depthBehindAll.
+// Depths as numbers.
 struct DepthRange {
-    double nearest, farthest;
+    double smallest, largest;
 };
 
 // The depths of a triangle over a block: what rules 5 to 7 give for its samples lies inside the range.
 class BlockDepth {
   public:
     // z: the z_i of rule 5; area: A; stepX, stepY: of the edge values from pixel to pixel; bias: of rule 7;
-    // step: between the numbers that the depth format stores (0 for D32F).
+    // step: between the numbers that the depth format stores (0 for floats).
     BlockDepth(const std::array<double, 3>& z, double area, const double (&stepX)[3],
                const double (&stepY)[3], double bias, double step)
         : z_(z), reciprocal_(1 / area) {
@@ -43,9 +43,9 @@ class BlockDepth {
         double sum = 0, magnitude = across_;
         for (size_t i = 0; i < 3; i++) sum += e[i] * z_[i], magnitude += std::fabs(e[i] * z_[i]);
         const double first = sum * reciprocal_, margin = margin_ + kLostHere * magnitude * reciprocal_;
-        const double nearest = std::max(first + below_, hull_.nearest) - margin,
-                     farthest = std::min(first + above_, hull_.farthest) + margin;
-        return {std::min(nearest, 1.0), std::max(farthest, 0.0)};
+        const double smallest = std::max(first + below_, hull_.smallest) - margin,
+                     largest = std::min(first + above_, hull_.largest) + margin;
+        return {std::min(smallest, 1.0), std::max(largest, 0.0)};
     }
 
   private:

@@ -1,6 +1,7 @@
 #include "raster/depth.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "raster/projection.h"
@@ -8,16 +9,15 @@
 namespace etalon {
 namespace {
 
+constexpr uint32_t kBehindReversed = 0xffffffff;  // -1, as signed integers are compared
 constexpr double kSmallestDepth = Projection<double>::kSmallestDepth;
 
-// The unit of the constant bias: that of a UNORM format, or the step of a float near the largest depth.
+// The unit of the constant bias: that of a UNORM format, or the step of the float format near the largest depth.
 double biasUnit(const RenderTargetFormat& format, double largest) {
-    constexpr int kFloatFractionBits = 23;
-    if (format.depth != DepthFormat::d32f) {
-        const double levels = depthLevels(format.depth);
-        return format.biasUnit == BiasUnit::step ? 1 / levels : 2 / (levels + 1);
-    }
-    return std::ldexp(1.0, std::ilogb(std::max(largest, kSmallestDepth)) - kFloatFractionBits);
+    const double levels = depthLevels(format.depth);
+    if (levels != 0) return format.biasUnit == BiasUnit::step ? 1 / levels : 2 / (levels + 1);
+    const int fractionBits = format.depth == DepthFormat::d64f ? 52 : 23;
+    return std::ldexp(1.0, std::ilogb(std::max(largest, kSmallestDepth)) - fractionBits);
 }
 
 }  // namespace
@@ -42,7 +42,7 @@ double depthBias(const DepthBias& bias, const RenderTargetFormat& format, const 
     return value;
 }
 
-uint32_t farthestDepth(DepthFormat format) {
+uint32_t storedOne(DepthFormat format) {
     switch (format) {
         case DepthFormat::d16:
             return 0xffff;
@@ -50,15 +50,28 @@ uint32_t farthestDepth(DepthFormat format) {
             return 0xffffff;
         case DepthFormat::d32f:
             return 0x3f800000;
+        case DepthFormat::d64f:
+            return 0x3ff00000;
     }
     return 0;
 }
 
-uint32_t depthBehindAll(DepthFormat format) {
-    return format == DepthFormat::d32f ? 0x40000000 : 2 * farthestDepth(format);
+uint32_t farthestDepth(const RenderTargetFormat& format) {
+    return format.depthDirection == DepthDirection::reversed ? 0 : storedOne(format.depth);
 }
 
-double depthFromStored(DepthFormat format, uint32_t stored) {
+uint32_t nearestDepth(const RenderTargetFormat& format) {
+    return format.depthDirection == DepthDirection::reversed ? storedOne(format.depth) : 0;
+}
+
+uint32_t depthBehindAll(const RenderTargetFormat& format) {
+    if (format.depthDirection == DepthDirection::reversed) return kBehindReversed;
+    return depthLevels(format.depth) == 0 ? 0x40000000 : 2 * storedOne(format.depth);
+}
+
+double depthFromStored(DepthFormat format, uint32_t stored, uint32_t low) {
+    if (stored == kBehindReversed) return -1;
+    if (format == DepthFormat::d64f) return std::bit_cast<double>(uint64_t{stored} << 32 | low);
     if (format == DepthFormat::d32f) {
         float z;
         std::memcpy(&z, &stored, sizeof z);

@@ -14,7 +14,7 @@
 
 namespace etalon {
 
-// 2^n - 1 of a UNORM format; 0 for D32F.
+// 2^n - 1 of a UNORM format; 0 for the float formats.
 inline double depthLevels(DepthFormat format) {
     switch (format) {
         case DepthFormat::d16:
@@ -22,6 +22,7 @@ inline double depthLevels(DepthFormat format) {
         case DepthFormat::d24:
             return 16777215.0;
         case DepthFormat::d32f:
+        case DepthFormat::d64f:
             return 0.0;
     }
     return 0.0;
@@ -30,7 +31,7 @@ inline double depthLevels(DepthFormat format) {
 // What a depth is cut to before it is written to D16 by rule 22.
 inline constexpr double kDepth16Steps = 0x1p20;
 
-// The integers that are stored for depths z (any finite values; clamped to [0, 1] first).
+// The integers that are stored for depths z (any finite values; clamped to [0, 1] first), but those of d64f.
 template <class S, int N>
 [[gnu::always_inline]] inline Lanes<int32_t, N> storedFloatDepth(Lanes<S, N> z) {
     z = RasterKernels<Lanes<S, N>>::clampOf(z, Lanes<S, N>(0.0), Lanes<S, N>(1.0));
@@ -67,6 +68,27 @@ template <class S, int N>
     }
     RasterKernels<Lanes<S, N>> kernels;
     return convertLanes<int32_t>(kernels.unormDepth(z, Lanes<S, N>(levels)));
+}
+
+// The two halves of what d64f stores, for depths z (any finite values; clamped to [0, 1] first).
+template <int N>
+struct DoubleDepth {
+    Lanes<int32_t, N> high, low;
+};
+template <class S, int N>
+DoubleDepth<N> storedDoubleDepth(Lanes<S, N> z) {
+    if constexpr (N > kNativeLanes<double>) {
+        const auto lower = storedDoubleDepth(lowerLanes(z)), upper = storedDoubleDepth(upperLanes(z));
+        return {joinLanes(lower.high, upper.high), joinLanes(lower.low, upper.low)};
+    } else {
+        using Wide = Lanes<double, N>;
+        using Halves = typename Lanes<int32_t, N>::Vector;
+        typedef int64_t Bits __attribute__((vector_size(N * sizeof(int64_t))));
+        const Wide depth = RasterKernels<Wide>::clampOf(convertLanes<double>(z), Wide(0.0), Wide(1.0));
+        const Bits bits = __builtin_bit_cast(Bits, depth.v);
+        return {Lanes<int32_t, N>(__builtin_convertvector(bits >> 32, Halves)),
+                Lanes<int32_t, N>(__builtin_convertvector(bits, Halves))};
+    }
 }
 
 // The bias of rule 7 for a triangle, in depth units; 0 for the default DepthBias.

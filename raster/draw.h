@@ -41,6 +41,13 @@ struct StencilState {
     StencilFace front, back;
 };
 
+// Where depths are 0 and 1: forward on the near and the far plane, reversed on the far and the near one.
+enum class DepthDirection : uint8_t { forward, reversed };
+// The comparison that what is nearer passes.
+inline Compare nearerThan(DepthDirection direction) {
+    return direction == DepthDirection::reversed ? Compare::greater : Compare::less;
+}
+
 // Depth bias (rule 7). clamp 0: no limit.
 struct DepthBias {
     double constant = 0, slopeScale = 0, clamp = 0;

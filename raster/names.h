@@ -11,8 +11,14 @@ template <>
 inline constexpr auto kNames<RasterReal> = std::to_array<std::string_view>({"fp32", "fp64"});
 static_assert(isLastName(RasterReal::fp64));
 template <>
-inline constexpr auto kNames<DepthFormat> = std::to_array<std::string_view>({"d16", "d24", "d32f"});
-static_assert(isLastName(DepthFormat::d32f));
+inline constexpr auto kNames<DepthFormat> = std::to_array<std::string_view>({"d16", "d24", "d32f", "d64f"});
+static_assert(isLastName(DepthFormat::d64f));
+template <>
+inline constexpr auto kNames<DepthOrder> = std::to_array<std::string_view>({"stored", "exact"});
+static_assert(isLastName(DepthOrder::exact));
+template <>
+inline constexpr auto kNames<DepthDirection> = std::to_array<std::string_view>({"forward", "reversed"});
+static_assert(isLastName(DepthDirection::reversed));
 template <>
 inline constexpr auto kNames<VolumeStencil> = std::to_array<std::string_view>({"exact", "8-bit"});
 static_assert(isLastName(VolumeStencil::bits8));

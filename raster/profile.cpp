@@ -12,10 +12,13 @@ namespace {
 std::array<Profile, 11> namedProfiles() {
     std::array<Profile, 11> named = {{
         {"f32", "IEEE single precision, exact texture fractions, D32F", Arithmetic::fp32},
-        {"f64", "IEEE double precision, exact texture fractions, D32F", Arithmetic::fp64, RasterReal::fp64},
+        {"f64", "IEEE double precision, exact texture fractions, depths of double", Arithmetic::fp64,
+         RasterReal::fp64, DepthFormat::d64f},
         {"truth",
-         "192-bit arithmetic for fragments, double for vertices; slow, to measure the others against",
-         Arithmetic::truth, RasterReal::fp64},
+         "192-bit arithmetic for fragments, double for vertices, depths in their exact order; slow, to "
+         "measure the "
+         "others against",
+         Arithmetic::truth, RasterReal::fp64, DepthFormat::d64f},
         {"d3d11",
          "single precision with flushed subnormals, 8-bit texture fractions, D24 [documented]; 8-bit weights",
          Arithmetic::fp32Flush, RasterReal::fp32, DepthFormat::d24, DepthRounding::exact, 8, 8},
@@ -43,7 +46,9 @@ std::array<Profile, 11> namedProfiles() {
         {"bf16", "bfloat16 for fragments, single for vertices, D32F", Arithmetic::bf16},
     }};
     for (Profile& profile : named) {
-        if (profile.depth != DepthFormat::d32f) profile.volumeStencil = VolumeStencil::bits8;
+        if (profile.depth == DepthFormat::d16 || profile.depth == DepthFormat::d24)
+            profile.volumeStencil = VolumeStencil::bits8;
+        if (profile.fragment == Arithmetic::truth) profile.depthOrder = DepthOrder::exact;
         if (profile.name == "d3d11") profile.filterRule.weights = FilterWeights::bits8;
     }
     return named;

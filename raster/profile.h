@@ -32,6 +32,8 @@ struct Profile {
     BiasUnit biasUnit = BiasUnit::step;         // of constant depth bias
     VolumeStencil volumeStencil = VolumeStencil::exact;
     FilterRule filterRule = {};  // of float textures, and of the weights of percentage-closer filtering
+    DepthDirection depthDirection = DepthDirection::forward;  // of what is visible
+    DepthOrder depthOrder = DepthOrder::stored;  // of what is visible; exact: with depths of d64f in fp64
 };
 
 // How float textures are sampled.

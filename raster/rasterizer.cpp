@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 
 #include "numeric/check.h"
 #include "numeric/parallel.h"
+#include "raster/depth.h"
 #include "raster/raster_scratch.h"
 #include "raster/vertex_stage.h"
 
@@ -59,6 +61,7 @@ class Rasterization {
         projectAll();
         setUpAll();
         listTriangles();
+        if (target_.format.depthOrder == DepthOrder::exact) boundDepths();
         drawTiles();
         target_.drawCount += static_cast<uint32_t>(draws_.size());
         return statistics_;
@@ -69,6 +72,10 @@ class Rasterization {
         size_t count = 0;
         const size_t base = target_.vertices.size();
         for (const Draw& draw : draws_) {
+            ETALON_CHECK(target_.format.depthOrder == DepthOrder::stored || draw.state.idWrite ||
+                             !draw.state.depthWrite,
+                         "draw {} writes depths without ids, which an exact order needs", inputs_.size());
+            target_.biases.push_back(draw.state.bias);
             ETALON_CHECK(draw.indices.size() % 3 == 0, "draw {} has {} indices", inputs_.size(),
                          draw.indices.size());
             inputs_.push_back({&draw,
@@ -116,7 +123,7 @@ class Rasterization {
         const size_t tiles = grid_.count();
         std::vector<size_t> firstTriangle;
         std::vector<uint32_t> firstClipped;
-        size_t triangles = target_.triangles.size();
+        size_t triangles = firstTriangle_;
         std::vector<uint32_t> listedOfTile(tiles, 0);
         for (size_t c = 0; c < chunks_.size(); c++) {
             TriangleSetup& setup = scratch_.setups[c];
@@ -157,10 +164,21 @@ class Rasterization {
         });
     }
 
+    // Depth clamp and bias make depths beyond 1, whose roundings are larger.
+    void boundDepths() {
+        double largest = target_.largestDepth;
+        for (size_t id = firstTriangle_; id < target_.triangleCount(); id++) {
+            const TriangleRecord record = target_.triangle(static_cast<uint32_t>(id));
+            const double bias = depthBias(target_.biases[record.draw], target_.format, record);
+            for (const double z : record.z) largest = std::max(largest, std::fabs(z) + std::fabs(bias));
+        }
+        target_.largestDepth = largest;
+    }
+
     void drawTiles() {
         TileWork work{&target_, draws_, target_.drawCount, options_.clear, false, false, false};
         for (const Draw& draw : draws_) {
-            work.usesId = work.usesId || draw.state.idWrite;
+            work.usesId = work.usesId || draw.state.idWrite || target_.format.depthOrder == DepthOrder::exact;
             work.usesStencil = work.usesStencil || draw.state.stencil.enabled;
             work.writesDepth = work.writesDepth || draw.state.depthWrite;
         }
@@ -177,6 +195,7 @@ class Rasterization {
     std::span<const Draw> draws_;
     const RasterOptions& options_;
     RasterScratch& scratch_;
+    const size_t firstTriangle_ = target_.triangleCount();  // of this call
     ViewportTransform transform_;
     TileGrid grid_;
     std::vector<DrawInput> inputs_;

@@ -44,10 +44,15 @@ std::span<const std::array<int, 2>> samplePositions(int samples) {
 RenderTarget::RenderTarget(int width, int height, const RenderTargetFormat& targetFormat)
     : format(targetFormat),
       depth(width, height, targetFormat.samples),
+      lowDepth(targetFormat.depth == DepthFormat::d64f ? Image<uint32_t>(width, height, targetFormat.samples)
+                                                       : Image<uint32_t>()),
       id(width, height, targetFormat.samples) {
     samplePositions(format.samples);
     ETALON_CHECK(format.subpixelBits >= 4 && format.subpixelBits <= 8, "subpixelBits = {}",
                  format.subpixelBits);
+    ETALON_CHECK(format.depthOrder == DepthOrder::stored ||
+                     (format.depth == DepthFormat::d64f && format.real == RasterReal::fp64),
+                 "an exact order of depths that are not double");
     clear();
 }
 
@@ -67,17 +72,20 @@ void RenderTarget::setStencil(int bits) {
 }
 
 void RenderTarget::clear() {
-    depth.fill(farthestDepth(format.depth));
+    depth.fill(farthestDepth(format));
+    lowDepth.fill(0);
+    largestDepth = 1;
     setStencil(format.stencilBits);
     id.fill(kNoTriangle);
     forgetTriangles();
 }
 
-void RenderTarget::forgetTriangles() {
-    drawCount = 0;
-    triangles.clear();
-    vertices.clear();
-    clippedVertices.clear();
+void RenderTarget::forgetTriangles(const Drawn& kept) {
+    drawCount = kept.draws;
+    biases.resize(kept.draws);
+    triangles.resize(kept.triangles);
+    vertices.resize(kept.vertices);
+    clippedVertices.resize(kept.clippedVertices);
 }
 
 TriangleRecord RenderTarget::triangle(uint32_t triangleId) const {

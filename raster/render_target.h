@@ -15,8 +15,10 @@
 
 namespace etalon {
 
-enum class DepthFormat : uint8_t { d16, d24, d32f };
+enum class DepthFormat : uint8_t { d16, d24, d32f, d64f };
 enum class DepthRounding : uint8_t { exact, driver, fixedFunction };  // rules 6 and 22
+// What decides a depth test: the numbers that are stored, or the exact depths of the triangles (rule 6).
+enum class DepthOrder : uint8_t { stored, exact };
 enum class RasterReal : uint8_t { fp32, fp64 };  // arithmetic of depth interpolation (rule 5)
 
 // Id of a sample that no triangle covers.
@@ -68,7 +70,11 @@ struct RenderTargetFormat {
     DepthRounding depthRounding = DepthRounding::exact;
     RasterReal real = RasterReal::fp32;
     BiasUnit biasUnit = BiasUnit::step;
-    int stencilBits = 8;  // 8, or 32: a stencil that counts and does nothing else
+    DepthOrder depthOrder =
+        DepthOrder::stored;  // exact: with d64f and fp64, and draws that write ids where depths
+    DepthDirection depthDirection =
+        DepthDirection::forward;  // of what is cleared; draws say what they compare
+    int stencilBits = 8;          // 8, or 32: a stencil that counts and does nothing else
 
     friend bool operator==(const RenderTargetFormat&, const RenderTargetFormat&) = default;
 };
@@ -102,8 +108,15 @@ class RenderTarget {
     void clear();
     // A stencil of so many bits, cleared.
     void setStencil(int bits);
-    // The part of it besides depth, stencil and id.
-    void forgetTriangles();
+    // What is drawn so far, besides depth, stencil and id.
+    struct Drawn {
+        uint32_t draws = 0;
+        size_t triangles = 0, vertices = 0, clippedVertices = 0;
+    };
+    Drawn drawn() const { return {drawCount, triangles.size(), vertices.size(), clippedVertices.size()}; }
+    // Keeps that much of it. Ids of what is forgotten stay in the plane.
+    void forgetTriangles(const Drawn& kept);
+    void forgetTriangles() { forgetTriangles(Drawn{}); }
 
     // Triangles and pieces that were drawn; their ids are 0 .. triangleCount() - 1.
     size_t triangleCount() const { return triangles.size(); }
@@ -117,11 +130,14 @@ class RenderTarget {
     }
 
     RenderTargetFormat format;
-    Image<uint32_t> depth;
+    Image<uint32_t> depth;        // of d64f the upper 32 bits
+    Image<uint32_t> lowDepth;     // of d64f the lower 32 bits; else empty
     Image<uint8_t> stencil;       // of 8 bits; else empty
     Image<uint32_t> wideStencil;  // of 32 bits; else empty
     Image<uint32_t> id;
-    uint32_t drawCount = 0;  // draws so far; StoredTriangle::draw counts over all calls of rasterize
+    uint32_t drawCount = 0;         // draws so far; StoredTriangle::draw counts over all calls of rasterize
+    std::vector<DepthBias> biases;  // of each draw
+    double largestDepth = 1;        // bounds |z_i| + |bias| of what was drawn in an exact order
 
     // What ids stand for; written by rasterize.
     UninitializedVector<StoredTriangle> triangles;
@@ -130,14 +146,19 @@ class RenderTarget {
     RasterScratchHolder scratch;
 };
 
-// The stored integer of depth 1 (the clear value).
-uint32_t farthestDepth(DepthFormat format);
+// The stored integer of depth 1; of d64f the upper 32 bits, the lower ones are 0.
+uint32_t storedOne(DepthFormat format);
 
-// A stored integer behind every depth that is drawn: where it stands every depth is less. It stands for 2.
-uint32_t depthBehindAll(DepthFormat format);
+// The stored integers of the far plane (the clear value) and of the near one.
+uint32_t farthestDepth(const RenderTargetFormat& format);
+uint32_t nearestDepth(const RenderTargetFormat& format);
 
-// The depth in [0, 1] that a stored integer stands for.
-double depthFromStored(DepthFormat format, uint32_t stored);
+// A stored integer behind every depth that is drawn: where it stands every depth is nearer. It stands for 2, reversed for
+// -1.
+uint32_t depthBehindAll(const RenderTargetFormat& format);
+
+// The number that a stored integer stands for, in [0, 1] but for depthBehindAll. low: the lower 32 bits of d64f.
+double depthFromStored(DepthFormat format, uint32_t stored, uint32_t low = 0);
 
 // Sample positions in sixteenths of a pixel from the pixel's corner (0..15), rule 4; `samples` of them.
 std::span<const std::array<int, 2>> samplePositions(int samples);

@@ -3,6 +3,6 @@
 
 namespace etalon {
 
-inline constexpr int kRulesVersion = 4;
+inline constexpr int kRulesVersion = 5;
 
 }  // namespace etalon

@@ -7,6 +7,7 @@
 #include "numeric/door.h"
 #include "raster/block_depth.h"
 #include "raster/depth.h"
+#include "raster/exact_depth.h"
 #include "raster/setup.h"
 #include "raster/tile_group.h"
 
@@ -43,9 +44,9 @@ struct Piece {
 };
 
 // What a draw does with its samples; the two special ones are written out for speed.
-//   plain: less passes and is written, no stencil
-//   counting: less passes, nothing is written but a stencil that every sample adds 1, 0 or -1 to (modulo 2^bits), by
-//             the outcome of the depth test
+//   plain: what is nearer passes and is written, no stencil
+//   counting: what is nearer passes, nothing is written but a stencil that every sample adds 1, 0 or -1 to (modulo
+//             2^bits), by the outcome of the depth test
 enum class DrawKind { any, plain, counting };
 
 // 1, 0 or -1 for an operation that adds it and wraps; else kNoFixedNumber.
@@ -66,8 +67,8 @@ bool isCounting(const StencilFace& face) {
     return face.compare == Compare::always && addedBy(face.onDepthFail) != kNoFixedNumber &&
            addedBy(face.onPass) != kNoFixedNumber;
 }
-DrawKind kindOf(const DrawState& state) {
-    if (state.depthCompare != Compare::less) return DrawKind::any;
+DrawKind kindOf(const DrawState& state, DepthDirection direction) {
+    if (state.depthCompare != nearerThan(direction)) return DrawKind::any;
     const StencilState& stencil = state.stencil;
     if (stencil.enabled) {
         const bool writesNothingElse = !state.depthWrite && !state.idWrite && stencil.writeMask == 0xff;
@@ -191,6 +192,17 @@ class TileRasterizerOfLevel final : public TileRasterizer {
     template <class Real, DrawKind kKind>
     void test(const Piece& piece, const PieceDepth<Real>& depth, const typename PieceDepth<Real>::vec3& e,
               const Group& group, GroupMask covered);
+    template <class Real, DrawKind kKind>
+    [[gnu::noinline]] void testDoubles(const Piece& piece, const Lanes<Real, kGroup>& z, const Group& group,
+                                       GroupMask covered);
+    void orderExactly(const Piece& piece, const Group& group, GroupMask covered,
+                      const DoubleDepth<kGroup>& depth, const DoubleDepth<kGroup>& stored,
+                      GroupInt& order) const;
+    ExactDepth exactDepth(const Piece& piece, int x, int y, int sample) const;
+    bool isReversed() const { return format_.depthDirection == DepthDirection::reversed; }
+    GroupMask isNearer(GroupInt depth, GroupInt stored) const {
+        return isReversed() ? depth > stored : depth < stored;
+    }
     void findRanges();
     // -1, 0 or 1 for the block's samples whose depth test passes, and for those whose does not.
     struct Added {
@@ -233,7 +245,9 @@ class TileRasterizerOfLevel final : public TileRasterizer {
     int rows_ = 0;
     size_t stride_ = 0;
     std::vector<SampleInterval> intervals_;  // in x, in y
-    std::vector<int32_t> depth_, id_, stencil_;
+    std::vector<int32_t> depth_, lowDepth_, id_, stencil_;
+    const TileWork* work_ = nullptr;
+    double undecided_ = 0;  // depths that are so near each other are decided without roundings
     int32_t stencilMask_ = 0xff;
     std::vector<Piece> group_;
     // What the blocks of each sample's plane store, row after row; empty if some draw writes depth.
@@ -244,6 +258,7 @@ class TileRasterizerOfLevel final : public TileRasterizer {
 void TileRasterizerOfLevel::run(const TileWork& work, const Rectangle& rectangle,
                                 std::span<const uint32_t> triangles) {
     RenderTarget& target = *work.target;
+    work_ = &work;
     rectangle_ = rectangle;
     format_ = target.format;
     samplePositions_ = samplePositions(format_.samples);
@@ -252,21 +267,26 @@ void TileRasterizerOfLevel::run(const TileWork& work, const Rectangle& rectangle
     stride_ = static_cast<size_t>(rectangle.x1 - rectangle.tileX + kGroupWidth - 1);
     for (const Draw& draw : work.draws)
         ETALON_CHECK(format_.stencilBits == 8 || !draw.state.stencil.enabled ||
-                         kindOf(draw.state) == DrawKind::counting,
+                         kindOf(draw.state, format_.depthDirection) == DrawKind::counting,
                      "a stencil of {} bits only counts", format_.stencilBits);
-    load(true, work, target.depth, farthestDepth(format_.depth), depth_);
+    load(true, work, target.depth, farthestDepth(format_), depth_);
+    const bool isDouble = format_.depth == DepthFormat::d64f;
+    load(isDouble, work, target.lowDepth, uint32_t{0}, lowDepth_);
     load(work.usesId, work, target.id, kNoTriangle, id_);
     const bool isWide = format_.stencilBits == 32;
     stencilMask_ = isWide ? -1 : 0xff;
     load(work.usesStencil && !isWide, work, target.stencil, uint8_t{0}, stencil_);
     load(work.usesStencil && isWide, work, target.wideStencil, uint32_t{0}, stencil_);
+    // Depths are rounded less than nine times.
+    undecided_ = format_.depthOrder == DepthOrder::exact ? 0x1p-48 * target.largestDepth : 0;
     ranges_.clear();
     if (!work.writesDepth && work.usesStencil) findRanges();
     if (format_.real == RasterReal::fp32)
         drawAll<float>(work, triangles);
     else
         drawAll<double>(work, triangles);
-    store(true, work, target.depth, farthestDepth(format_.depth), depth_);
+    store(true, work, target.depth, farthestDepth(format_), depth_);
+    if (isDouble) store(true, work, target.lowDepth, uint32_t{0}, lowDepth_);
     store(work.usesId, work, target.id, kNoTriangle, id_);
     if (isWide)
         store(work.usesStencil, work, target.wideStencil, uint32_t{0}, stencil_);
@@ -319,14 +339,17 @@ void TileRasterizerOfLevel::findRanges() {
                           y0 = std::max(rectangle_.tileY + row * kBlockSize, rectangle_.y0),
                           x1 = std::min(rectangle_.tileX + (column + 1) * kBlockSize, rectangle_.x1),
                           y1 = std::min(rectangle_.tileY + (row + 1) * kBlockSize, rectangle_.y1);
-                int32_t nearest = INT32_MAX, farthest = 0;
+                int32_t smallest = INT32_MAX, largest = INT32_MIN;
                 for (int y = y0; y < y1; y++)
                     for (int x = x0; x < x1; x++) {
                         const int32_t depth = depth_[offsetOf(x, y, s)];
-                        nearest = std::min(nearest, depth), farthest = std::max(farthest, depth);
+                        smallest = std::min(smallest, depth), largest = std::max(largest, depth);
                     }
-                ranges_.push_back({depthFromStored(format_.depth, static_cast<uint32_t>(nearest)),
-                                   depthFromStored(format_.depth, static_cast<uint32_t>(farthest))});
+                const auto numberOf = [&](int32_t stored, uint32_t low) {
+                    return depthFromStored(format_.depth, static_cast<uint32_t>(stored), low);
+                };
+                ranges_.push_back(
+                    {numberOf(smallest, 0) - undecided_, numberOf(largest, ~uint32_t{0}) + undecided_});
             }
 }
 
@@ -384,7 +407,7 @@ void TileRasterizerOfLevel::drawPiece(const Piece& piece) {
     const auto draw = [&]<DrawKind kKind>() {
         piece.isSmall ? drawSmallPiece<Real, kKind>(piece) : drawLargePiece<Real, kKind>(piece);
     };
-    switch (kindOf(*piece.state)) {
+    switch (kindOf(*piece.state, format_.depthDirection)) {
         case DrawKind::any:
             return draw.template operator()<DrawKind::any>();
         case DrawKind::plain:
@@ -466,7 +489,7 @@ void TileRasterizerOfLevel::drawLargePiece(const Piece& piece) {
             return stepX[i] * column + stepY[i] * row;
         });
     }
-    const double step = format_.depth == DepthFormat::d32f ? 0.0 : 1 / depthLevels(format_.depth);
+    const double levels = depthLevels(format_.depth), step = levels == 0 ? 0.0 : 1 / levels;
     const BlockDepth blockDepth(piece.z, static_cast<double>(piece.area), stepX, stepY, piece.bias, step);
     const auto drawBlock = [&](const Piece& block, int sample, const std::array<int64_t, 3>& values) {
         const auto [x_subpx, y_subpx] = samplePosition(block.x0, block.y0, sample);
@@ -485,7 +508,9 @@ void TileRasterizerOfLevel::drawLargePiece(const Piece& piece) {
         if constexpr (kKind == DrawKind::counting) {
             if (!ranges_.empty()) {
                 const DepthRange drawn = blockDepth.at(first), &stored = rangeOf(block, sample);
-                const bool passes = drawn.farthest<stored.nearest, fails = drawn.nearest> stored.farthest;
+                const bool isLess = drawn.largest<stored.smallest, isGreater = drawn.smallest> stored.largest,
+                           passes = isReversed() ? isGreater : isLess,
+                           fails = isReversed() ? isLess : isGreater;
                 isDecided = passes || fails;
                 added = passes ? addedBy(piece).onPass : addedBy(piece).onFail;
                 if (isDecided && added == 0) return;
@@ -623,6 +648,8 @@ template <class Real, DrawKind kKind>
                                                                const PieceDepth<Real>& pieceDepth,
                                                                const typename PieceDepth<Real>::vec3& e,
                                                                const Group& group, GroupMask covered) {
+    if (format_.depth == DepthFormat::d64f)
+        return testDoubles<Real, kKind>(piece, pieceDepth.at(e), group, covered);
     const DrawState& state = *piece.state;
     const GroupInt stored = loadGroup(&depth_[group.offset], stride_);
     GroupInt depth;
@@ -630,12 +657,12 @@ template <class Real, DrawKind kKind>
     if constexpr (kKind == DrawKind::counting) {
         const Added added = addedBy(piece);
         depth = storedByRegister(format_.depth, format_.depthRounding, pieceDepth.at(e));
-        const GroupInt ofOutcome = select(depth < stored, splat(added.onPass), splat(added.onFail));
+        const GroupInt ofOutcome = select(isNearer(depth, stored), splat(added.onPass), splat(added.onFail));
         return count(group, select(covered, ofOutcome, splat(0)));
     }
     if constexpr (kKind == DrawKind::plain) {
         depth = storedByRegister(format_.depth, format_.depthRounding, pieceDepth.at(e));
-        passed = covered && depth < stored;
+        passed = covered && isNearer(depth, stored);
     } else {
         depth = storedByRegister(format_.depth, format_.depthRounding, pieceDepth.at(e));
         passed = covered && compareValues(state.depthCompare, depth, stored);
@@ -648,6 +675,76 @@ template <class Real, DrawKind kKind>
         storeGroup(select(passed, splat(static_cast<int32_t>(piece.id)), loadGroup(id, stride_)), id,
                    stride_);
     }
+}
+
+// The same for depths of 64 bits.
+template <class Real, DrawKind kKind>
+void TileRasterizerOfLevel::testDoubles(const Piece& piece, const Lanes<Real, kGroup>& z, const Group& group,
+                                        GroupMask covered) {
+    const DrawState& state = *piece.state;
+    const DoubleDepth<kGroup> depth = storedDoubleDepth(z),
+                              stored{loadGroup(&depth_[group.offset], stride_),
+                                     loadGroup(&lowDepth_[group.offset], stride_)};
+    // Below 0, 0 or above it: the depth is less than, equal to or greater than what is stored. The upper halves are not
+    // negative, the lower ones have no sign.
+    const auto orderOf = [](GroupInt a, GroupInt b, GroupInt whenEqual) {
+        return select(a < b, splat(-1), select(a > b, splat(1), whenEqual));
+    };
+    const auto unsignedOrder = [](GroupInt a) { return GroupInt(a.v ^ splat(INT32_MIN).v); };
+    GroupInt order = orderOf(depth.high, stored.high,
+                             orderOf(unsignedOrder(depth.low), unsignedOrder(stored.low), splat(0)));
+    if (format_.depthOrder == DepthOrder::exact) orderExactly(piece, group, covered, depth, stored, order);
+    if constexpr (kKind == DrawKind::counting) {
+        const Added added = addedBy(piece);
+        const GroupInt ofOutcome =
+            select(isNearer(order, splat(0)), splat(added.onPass), splat(added.onFail));
+        return count(group, select(covered, ofOutcome, splat(0)));
+    }
+    GroupMask passed = covered && compareValues(state.depthCompare, order, splat(0));
+    if (kKind == DrawKind::any && state.stencil.enabled) passed = testStencil(piece, group, covered, passed);
+    if (state.depthWrite) {
+        storeGroup(select(passed, depth.high, stored.high), &depth_[group.offset], stride_);
+        storeGroup(select(passed, depth.low, stored.low), &lowDepth_[group.offset], stride_);
+    }
+    if (state.idWrite) {
+        int32_t* id = &id_[group.offset];
+        storeGroup(select(passed, splat(static_cast<int32_t>(piece.id)), loadGroup(id, stride_)), id,
+                   stride_);
+    }
+}
+
+// The order of depths that are so near that their roundings may have decided.
+void TileRasterizerOfLevel::orderExactly(const Piece& piece, const Group& group, GroupMask covered,
+                                         const DoubleDepth<kGroup>& depth, const DoubleDepth<kGroup>& stored,
+                                         GroupInt& order) const {
+    const auto numberOf = [](const DoubleDepth<kGroup>& of, int i) {
+        return depthFromStored(DepthFormat::d64f, static_cast<uint32_t>(of.high[i]),
+                               static_cast<uint32_t>(of.low[i]));
+    };
+    for (int i = 0; i < kGroup; i++) {
+        const double there = numberOf(stored, i);
+        if (!covered[i] || std::fabs(numberOf(depth, i) - there) > undecided_) continue;
+        const size_t at = group.offset + static_cast<size_t>(i / kGroupWidth) * stride_ +
+                          static_cast<size_t>(i % kGroupWidth);
+        const int x = group.x + i % kGroupWidth, y = group.y + i / kGroupWidth;
+        const int sample = static_cast<int>(at / stride_) / rows_;
+        const auto id = static_cast<uint32_t>(id_[at]);
+        ExactDepth before = ExactDepth::of(there);
+        if (id != kNoTriangle) {
+            ETALON_CHECK(id < work_->target->triangles.size(), "triangle {} is forgotten", id);
+            DrawState state;
+            state.bias = work_->target->biases[work_->target->triangles[id].draw];
+            before = exactDepth(preparePiece(*work_->target, id, state), x, y, sample);
+        }
+        order.set(i, compareDepths(exactDepth(piece, x, y, sample), before));
+    }
+}
+
+ExactDepth TileRasterizerOfLevel::exactDepth(const Piece& piece, int x, int y, int sample) const {
+    const auto [x_subpx, y_subpx] = samplePosition(x, y, sample);
+    ExactDepth depth{{}, piece.z, piece.area, piece.bias};
+    for (size_t i = 0; i < 3; i++) depth.e[i] = piece.edges[i].at(x_subpx, y_subpx);
+    return depth;
 }
 
 // Runs the stencil test and operations; returns the samples that pass both tests.

@@ -32,9 +32,10 @@ std::vector<OutputDescription> makeOutputs() {
          "the fragment arithmetic (lighting/kernels/view_depth.glsl)",
          {{{"Z"}, ShadeOutput::depth, kInfinity, "m", "[near, far]", kFirst, "infinity"}}},
         {"window_depth",
-         "the depth that the depth test compares, as it is stored, as a fraction: 0 on the near plane, 1 on "
-         "the far one",
-         {{{"depth.window"}, {}, 1, "1", "[0, 1]", kFirst, "1"}}},
+         "the depth that the depth test compares, as it is stored, as a fraction, rounded to float: 0 on the "
+         "near plane, 1 on the far one, and the other way round with the profile's `depth_direction` "
+         "reversed",
+         {{{"depth.window"}, {}, 1, "1", "[0, 1]", kFirst, "the far plane's"}}},
         {"distance",
          "the distance from the eye to the point that is shaded",
          {{{"distance"}, ShadeOutput::distance, kInfinity, "m", "near and above", kFirst, "infinity"}}},

@@ -94,9 +94,9 @@ Profile readProfileFile(const std::filesystem::path& path) {
     const std::string file = path.string();
     const TableReader reader(
         file, document, "the profile",
-        {"base", "fragment", "vertex", "depth", "depth_rounding", "subpixel_bits", "texture_fraction_bits",
-         "texture_filter", "texture_format", "filter_position", "filter_weights", "filter_sum", "environment",
-         "depth_bias_unit", "volume_stencil"});
+        {"base", "fragment", "vertex", "depth", "depth_rounding", "depth_order", "depth_direction",
+         "subpixel_bits", "texture_fraction_bits", "texture_filter", "texture_format", "filter_position",
+         "filter_weights", "filter_sum", "environment", "depth_bias_unit", "volume_stencil"});
     const std::string base = reader.has("base") ? reader.choice("base", profileNames()) : "f32";
     Profile profile = *findProfile(base);
     profile.name = path.filename().string();
@@ -105,6 +105,12 @@ Profile readProfileFile(const std::filesystem::path& path) {
     read(reader, "vertex", profile.vertex);
     read(reader, "depth", profile.depth);
     read(reader, "depth_rounding", profile.depthRounding);
+    read(reader, "depth_direction", profile.depthDirection);
+    const bool hasDoubleDepths = profile.depth == DepthFormat::d64f && profile.vertex == RasterReal::fp64;
+    if (!hasDoubleDepths) profile.depthOrder = DepthOrder::stored;
+    read(reader, "depth_order", profile.depthOrder);
+    if (profile.depthOrder == DepthOrder::exact && !hasDoubleDepths)
+        reader.failKey("depth_order", "is exact for depth = \"d64f\" with vertex = \"fp64\" only");
     read(reader, "subpixel_bits", 4, 8, profile.subpixelBits);
     if (reader.has("texture_fraction_bits")) {
         constexpr std::string_view kExact[] = {"exact"};

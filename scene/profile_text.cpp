@@ -37,6 +37,8 @@ constexpr Note kNotes[] = {
     {"d3d11", "vertex", "binary32 [D3D11.3, sec. 3]", "subnormals kept"},
     {"d3d11", "depth", "", "24 bits, one of the formats that there are"},
     {"d3d11", "depth_rounding", "one half is added, then the fraction is cut off [D3D11.3]", ""},
+    {"d3d11", "depth_order", "stored depths are compared [D3D11.3]", ""},
+    {"d3d11", "depth_direction", "", "forward; the projection decides"},
     {"d3d11", "subpixel_bits", "8 [D3D11.3]", ""},
     {"d3d11", "texture_fraction_bits", "at least 8 [D3D11.3, sec. 7.18]", ""},
     {"d3d11", "texture_filter", "", "float textures are filtered"},
@@ -63,6 +65,8 @@ constexpr Note kNotes[] = {
     {"nvidia", "depth", "", "24 bits"},
     {"nvidia", "depth_rounding", "rule 22, " NVIDIA_MEASURED,
      "of depths interpolated by rule 5: the hardware's are up to 7 steps of D24 away, 34 in slivers"},
+    {"nvidia", "depth_order", "stored depths are compared [VulkanSpec]", ""},
+    {"nvidia", "depth_direction", "", "forward; the projection decides"},
     {"nvidia", "subpixel_bits", "8, to nearest even, " NVIDIA_MEASURED, ""},
     {"nvidia", "texture_fraction_bits", "8, " NVIDIA_MEASURED, ""},
     {"nvidia", "texture_filter", "float textures are filtered, " NVIDIA_MEASURED, ""},
@@ -81,6 +85,8 @@ constexpr Note kNotes[] = {
     {"vulkan-min", "vertex", "32 bits [VulkanSpec]", "nearest-even, subnormals kept"},
     {"vulkan-min", "depth", "every device has it [VulkanSpec]", ""},
     {"vulkan-min", "depth_rounding", "", "exact"},
+    {"vulkan-min", "depth_order", "stored depths are compared [VulkanSpec]", ""},
+    {"vulkan-min", "depth_direction", "", "forward; the projection decides"},
     {"vulkan-min", "subpixel_bits", "the least subPixelPrecisionBits [VulkanSpec, \"Required Limits\"]", ""},
     {"vulkan-min", "texture_fraction_bits",
      "the least subTexelPrecisionBits [VulkanSpec, \"Required Limits\"]", ""},
@@ -104,6 +110,8 @@ constexpr Note kNotes[] = {
     {"nv40-fp32", "vertex", "32 bits [Kilgariff2005]", "nearest-even, subnormals kept"},
     {"nv40-fp32", "depth", "", "24 bits"},
     {"nv40-fp32", "depth_rounding", "", "exact"},
+    {"nv40-fp32", "depth_order", "", "stored depths"},
+    {"nv40-fp32", "depth_direction", "", "forward; the projection decides"},
     {"nv40-fp32", "subpixel_bits", "", "8"},
     {"nv40-fp32", "texture_fraction_bits", "", "8"},
     {"nv40-fp32", "texture_filter", "fp16 textures are filtered, not fp32 [Kilgariff2005]", ""},
@@ -126,6 +134,8 @@ constexpr Note kNotes[] = {
     {"nv40-fp16", "vertex", "32 bits [Kilgariff2005]", "nearest-even, subnormals kept"},
     {"nv40-fp16", "depth", "", "24 bits"},
     {"nv40-fp16", "depth_rounding", "", "exact"},
+    {"nv40-fp16", "depth_order", "", "stored depths"},
+    {"nv40-fp16", "depth_direction", "", "forward; the projection decides"},
     {"nv40-fp16", "subpixel_bits", "", "8"},
     {"nv40-fp16", "texture_fraction_bits", "", "8"},
     {"nv40-fp16", "texture_filter", "fp16 textures are filtered [Kilgariff2005]", ""},
@@ -151,6 +161,8 @@ constexpr Note kNotes[] = {
     {"r300-fp24", "vertex", "", "32 bits, nearest-even"},
     {"r300-fp24", "depth", "", "24 bits"},
     {"r300-fp24", "depth_rounding", "", "exact"},
+    {"r300-fp24", "depth_order", "", "stored depths"},
+    {"r300-fp24", "depth_direction", "", "forward; the projection decides"},
     {"r300-fp24", "subpixel_bits", "", "8"},
     {"r300-fp24", "texture_fraction_bits", "", "8"},
     {"r300-fp24", "texture_filter", "float textures are not filtered, by a single source", ""},
@@ -209,6 +221,8 @@ std::vector<ProfileField> profileFields(const Profile& profile) {
     addName("vertex", profile.vertex);
     addName("depth", profile.depth);
     addName("depth_rounding", profile.depthRounding);
+    addName("depth_order", profile.depthOrder);
+    addName("depth_direction", profile.depthDirection);
     addNumber("subpixel_bits", profile.subpixelBits);
     if (profile.textureFractionBits == kExactFraction)
         add("texture_fraction_bits", "exact");

@@ -56,8 +56,9 @@ void addFarVertices(const Caster& caster, const LightSource& light, const View& 
     vertices.insert(vertices.end(), far.begin(), far.end());
 }
 
-DrawState stateOf(VolumeCounting counting, bool frontIsClockwise) {
+DrawState stateOf(VolumeCounting counting, bool frontIsClockwise, DepthDirection direction) {
     DrawState state;
+    state.depthCompare = nearerThan(direction);
     state.cull = CullMode::none;
     state.frontIsClockwise = frontIsClockwise;
     state.depthWrite = state.idWrite = false;
@@ -73,7 +74,8 @@ DrawState stateOf(VolumeCounting counting, bool frontIsClockwise) {
 }
 
 void addDraws(const DrawnVolume& drawn, const Caster& caster, const LightSource& light,
-              const VolumeShadowOptions& options, bool mirroredView, std::vector<Draw>& draws) {
+              const VolumeShadowOptions& options, bool mirroredView, DepthDirection direction,
+              std::vector<Draw>& draws) {
     const ShadowVolume& volume = drawn.volume;
     const std::span<const ClipVertex> all = drawn.vertices;
     const size_t count = caster.placed->positions.size();
@@ -84,8 +86,8 @@ void addDraws(const DrawnVolume& drawn, const Caster& caster, const LightSource&
     const auto addCap = [&](std::span<const ClipVertex> vertices, const std::vector<uint32_t>& triangles,
                             bool reversed) {
         if (triangles.empty()) return;
-        Draw draw{vertices, caster.placed->mesh->indices, stateOf(options.counting, mirroredView != reversed),
-                  triangles};
+        Draw draw{vertices, caster.placed->mesh->indices,
+                  stateOf(options.counting, mirroredView != reversed, direction), triangles};
         draws.push_back(draw);
     };
     addCap(all.first(count), volume.facing, false);
@@ -96,14 +98,15 @@ void addDraws(const DrawnVolume& drawn, const Caster& caster, const LightSource&
         addCap(all.subspan(count), volume.away, false);
     }
     if (volume.sides.empty()) return;
-    draws.push_back({all, volume.sides, stateOf(options.counting, mirroredView), {}});
+    draws.push_back({all, volume.sides, stateOf(options.counting, mirroredView, direction), {}});
     draws.back().state.depthClamp = options.counting == VolumeCounting::zPass;
 }
 
 // Where nothing is visible nothing needs to be counted: there the depths make every sample of a volume pass
 // with zFail, and fail with zPass.
 void leaveOutBackground(RenderTarget& target, VolumeCounting counting) {
-    const uint32_t depth = counting == VolumeCounting::zFail ? depthBehindAll(target.format.depth) : 0;
+    const uint32_t depth =
+        counting == VolumeCounting::zFail ? depthBehindAll(target.format) : nearestDepth(target.format);
     const std::span<const uint32_t> ids = target.id.values();
     for (size_t i = 0; i < ids.size(); i++)
         if (ids[i] == kNoTriangle) target.depth.values()[i] = depth;
@@ -129,7 +132,7 @@ VolumeShadows::VolumeShadows(const SurfaceScene& scene, const std::vector<Placed
     lit_.resize(lights.size());
     ETALON_CHECK(!options.casters || options.casters->size() == lights.size(), "{} lights of {}",
                  options.casters ? options.casters->size() : 0, lights.size());
-    const View infinite = withInfiniteFar(view);
+    const View infinite = inDirection(withInfiniteFar(view), profile.depthDirection);
     VisibleScene visible =
         findVisible(scene, placed, infinite, profile, options.samples, raster, options.excluded);
     instance_ = visibleInstances(visible);
@@ -152,6 +155,7 @@ VolumeShadows::VolumeShadows(const SurfaceScene& scene, const std::vector<Placed
     std::vector<uint32_t> all(placed.size());
     std::iota(all.begin(), all.end(), 0u);
 
+    const RenderTarget::Drawn whatIsVisible = visible.target.drawn();
     ProgressLoop progress(lights.size());
     for (size_t l = 0; l < lights.size(); l++, progress.next()) {
         const std::vector<uint32_t>& casters = options.casters ? (*options.casters)[l] : all;
@@ -166,15 +170,15 @@ VolumeShadows::VolumeShadows(const SurfaceScene& scene, const std::vector<Placed
             if (drawn.volume.empty()) continue;
             drawn.vertices.assign(caster.near.begin(), caster.near.end());
             addFarVertices(caster, light, infinite, profile.vertex, raster.threads, drawn.vertices);
-            addDraws(drawn, caster, light, options, view.mirrored, draws);
+            addDraws(drawn, caster, light, options, view.mirrored, profile.depthDirection, draws);
             statistics_.caps += drawn.volume.facing.size() + drawn.volume.away.size();
             statistics_.sides += drawn.volume.sides.size() / 3;
             statistics_.silhouetteEdges += drawn.volume.silhouetteEdges;
         }
         if (draws.empty()) continue;
-        // Depths stay; the triangles of the volumes are not kept.
+        // Depths stay, and what is visible; the triangles of the volumes are not kept.
         RenderTarget& target = visible.target;
-        target.forgetTriangles();
+        target.forgetTriangles(whatIsVisible);
         uint64_t triangles = 0;
         for (const Draw& draw : draws) triangles += draw.triangleCount();
         constexpr uint64_t kCountedIn8Bits = 255;

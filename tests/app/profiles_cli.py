@@ -71,7 +71,7 @@ class Profiles(CliCase):
         for profile in report:
             self.assertIn(f"# {profile['name']}: {profile['meaning']}\n", text)
             keys = [field["key"] for field in profile["fields"]]
-            for key in ("vertex", "depth", "depth_rounding", "subpixel_bits", "texture_fraction_bits",
+            for key in ("vertex", "depth", "depth_rounding", "depth_order", "depth_direction", "subpixel_bits", "texture_fraction_bits",
                         "texture_filter", "depth_bias_unit", "volume_stencil",
                         "environment"):
                 self.assertIn(key, keys)

@@ -21,6 +21,30 @@ constexpr double kPi = 3.141592653589793;
 
 }  // namespace
 
+TEST_CASE("ReversedDepthsShowTheSameTriangles") {
+    const SurfaceScene scene = test::box(2, 3, 4);
+    for (const char* name : {"f32", "f64", "truth", "d3d11"}) {
+        CAPTURE(name);
+        Profile profile = *findProfile(name);
+        const auto placed = placeMeshes(scene, profile.vertex, 0);
+        const View view = cubeFaceView(CubeFace::plusX, 64, {0.5, 0.1, 0.3}, 0.1, 50);
+        const VisibleScene forward = findVisible(scene, placed, view, profile, 4, {});
+        profile.depthDirection = DepthDirection::reversed;
+        const VisibleScene reversed = findVisible(scene, placed, view, profile, 4, {});
+        CHECK(forward.target.id == reversed.target.id);
+        const auto depthAt = [](const VisibleScene& visible, int s) {
+            const RenderTarget& target = visible.target;
+            return depthFromStored(target.format.depth, target.depth.at(32, 32, s),
+                                   target.lowDepth.empty() ? 0 : target.lowDepth.at(32, 32, s));
+        };
+        // The wall is 1.5 m away.
+        for (int s = 0; s < 4; s++) {
+            CHECK(depthAt(forward, s) == doctest::Approx((1 - 0.1 / 1.5) * 50 / 49.9).epsilon(1e-6));
+            CHECK(depthAt(reversed, s) == doctest::Approx((50 / 1.5 - 1) * 0.1 / 49.9).epsilon(1e-5));
+        }
+    }
+}
+
 // From inside a box, each face of the cube map shows its own wall: the face table end to end. The distance of
 // a texel is that of the wall divided by the cosine. Snapping moves a vertex by up to half a subpixel, 2^-9
 // texels, of 2 / size each on the face's plane at distance 1, in s and in t.

@@ -98,3 +98,26 @@ TEST_CASE("InfiniteFarPlanePutsPointsAtInfinityAtDepthOne") {
         CHECK(row(zRow, p) == row(wRow, p));
     }
 }
+
+TEST_CASE("ReversedDepthsAreOneOnTheNearPlaneAndZeroOnTheFarOne") {
+    RandomNumbers random(7);
+    PinholeCamera camera;
+    camera.width = camera.height = 100;
+    camera.fx = camera.fy = 100;
+    camera.cx = camera.cy = 50;
+    camera.position = {3, -2, 1};
+    camera.near_m = 0.25, camera.far_m = 4000;
+    for (const View& view : {cameraView(camera), withInfiniteFar(cameraView(camera)),
+                             cubeFaceView(CubeFace::minusY, 64, {3, -1, 2}, 0.25, 4000)}) {
+        const View reversed = inDirection(view, DepthDirection::reversed);
+        CHECK(inDirection(reversed, DepthDirection::reversed).worldToClip == reversed.worldToClip);
+        CHECK(inDirection(view, DepthDirection::forward).worldToClip == view.worldToClip);
+        for (int i = 0; i < 100; i++) {
+            const double d = random.uniform(0.25, 4000);
+            const glm::dvec3 p = pointOnRay(view, random.uniform(0, 64), random.uniform(0, 64), d);
+            const double w = row(reversed.worldToClip[3], p), depth = row(reversed.worldToClip[2], p) / w;
+            const double expected = std::isinf(view.far_m) ? 0.25 / w : (4000 / w - 1) * 0.25 / 3999.75;
+            CHECK(depth == doctest::Approx(expected).epsilon(1e-9));
+        }
+    }
+}

@@ -75,7 +75,7 @@ TEST_CASE("DepthBiasIsInUnitsOfTheFormat") {
             CHECK(stored(DepthFormat::d16, -100, kTenSteps) == stored(DepthFormat::d16, -100));
             CHECK(stored(DepthFormat::d16, 100, -kTenSteps) == stored(DepthFormat::d16, 100));
             // The sum is clamped to [0, 1].
-            CHECK(stored(DepthFormat::d24, 1e9) == farthestDepth(DepthFormat::d24));
+            CHECK(stored(DepthFormat::d24, 1e9) == storedOne(DepthFormat::d24));
             CHECK(stored(DepthFormat::d32f, -1e9) == 0);
         }
     // D32F: the exponent of the largest depth of the triangle decides for all of it.

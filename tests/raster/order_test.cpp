@@ -82,16 +82,17 @@ RenderTargetFormat randomFormat(Random& random, std::initializer_list<int> sampl
     RenderTargetFormat format;
     format.samples = samples.begin()[random.next() % samples.size()];
     format.subpixelBits = random.integer(4, 8);
-    format.depth = anyOf(random, DepthFormat::d32f);
+    format.depth = anyOf(random, DepthFormat::d64f);
     format.real = anyOf(random, RasterReal::fp64);
     format.depthRounding =
         format.real == RasterReal::fp32 ? anyOf(random, DepthRounding::fixedFunction) : DepthRounding::exact;
     format.biasUnit = anyOf(random, BiasUnit::driver);
+    format.depthDirection = anyOf(random, DepthDirection::reversed);
     return format;
 }
 
 bool samePlanes(const RenderTarget& a, const RenderTarget& b) {
-    return a.depth == b.depth && a.stencil == b.stencil && a.id == b.id &&
+    return a.depth == b.depth && a.lowDepth == b.lowDepth && a.stencil == b.stencil && a.id == b.id &&
            a.triangleCount() == b.triangleCount();
 }
 
@@ -115,6 +116,7 @@ TEST_CASE("CountingEqualsTheScalarReplay") {
         for (DrawState& state : surfaces.states) {
             state = {};
             state.cull = CullMode::none;
+            state.depthCompare = nearerThan(format.depthDirection);
         }
         const auto drawBoth = [&](const Scene& scene) {
             const std::vector<Draw> draws = scene.draws();
@@ -122,9 +124,13 @@ TEST_CASE("CountingEqualsTheScalarReplay") {
             oracle::replay(expected, viewport, draws);
         };
         drawBoth(surfaces);
-        for (size_t i = 0; i < expected.id.values().size(); i++)
-            if (expected.id.values()[i] == kNoTriangle)
-                actual.depth.values()[i] = expected.depth.values()[i] = depthBehindAll(format.depth);
+        for (int s = 0; s < format.samples; s++)
+            for (int y = 0; y < actual.height(); y++)
+                for (int x = 0; x < actual.width(); x++)
+                    if (expected.id.at(x, y, s) == kNoTriangle) {
+                        actual.depth.at(x, y, s) = depthBehindAll(format);
+                        expected.depth.at(x, y, s) = oracle::storedDepth(actual, x, y, s);
+                    }
         Scene counted;
         for (int d = 0; d < 2; d++) {
             std::vector<ClipVertex> vertices;
@@ -138,6 +144,7 @@ TEST_CASE("CountingEqualsTheScalarReplay") {
             DrawState state;
             state.cull = CullMode::none;
             state.depthWrite = state.idWrite = false;
+            state.depthCompare = nearerThan(format.depthDirection);
             state.depthClamp = random.chance(0.5);
             if (random.chance(0.3)) state.bias = {random.uniform(-1e4, 1e4), 0, 0};
             state.stencil.enabled = true;

@@ -62,7 +62,7 @@ RenderTarget drawOverAllValues(const StencilState& stencil, bool depthPasses) {
 }  // namespace
 
 TEST_CASE("StencilOperationsFollowTheTable") {
-    const uint32_t farthest = farthestDepth(DepthFormat::d32f);
+    const uint32_t farthest = storedOne(DepthFormat::d32f);
     for (int operation = 0; operation < 8; operation++)
         for (uint8_t reference : {0x00, 0x01, 0x5a, 0x80, 0xff})
             for (uint8_t writeMask : {0xff, 0x00, 0x0f, 0xa5}) {

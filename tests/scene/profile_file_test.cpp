@@ -43,7 +43,8 @@ std::string refusal(const std::string& text) {
 // Equal but for the name and the meaning.
 bool sameChoices(const Profile& a, const Profile& b) {
     return a.fragment == b.fragment && a.vertex == b.vertex && a.depth == b.depth &&
-           a.depthRounding == b.depthRounding && a.subpixelBits == b.subpixelBits &&
+           a.depthRounding == b.depthRounding && a.depthOrder == b.depthOrder &&
+           a.depthDirection == b.depthDirection && a.subpixelBits == b.subpixelBits &&
            a.textureFractionBits == b.textureFractionBits && a.textureFilter == b.textureFilter &&
            a.environment == b.environment && a.volumeStencil == b.volumeStencil && a.biasUnit == b.biasUnit &&
            a.filterRule == b.filterRule;
@@ -57,6 +58,7 @@ base = "d3d11"
 vertex = "fp64"
 depth = "d32f"
 depth_rounding = "driver"
+depth_direction = "reversed"
 subpixel_bits = 5
 texture_fraction_bits = 3
 texture_filter = "nearest"
@@ -90,6 +92,8 @@ seed = 99
     CHECK(profile.vertex == RasterReal::fp64);
     CHECK(profile.depth == DepthFormat::d32f);
     CHECK(profile.depthRounding == DepthRounding::driver);
+    CHECK(profile.depthDirection == DepthDirection::reversed);
+    CHECK(profile.depthOrder == DepthOrder::stored);
     CHECK(profile.subpixelBits == 5);
     CHECK(profile.textureFractionBits == 3);
     CHECK(profile.textureFilter == Filter::nearest);
@@ -110,6 +114,9 @@ TEST_CASE("WhatAProfileFileLeavesOutIsThatOfItsBase") {
     CHECK(sameChoices(composed(""), profiles().front()));
     for (const Profile& named : profiles())
         CHECK(sameChoices(composed("base = '" + named.name + "'"), named));
+    // What an exact order needs is left out with it.
+    CHECK(composed("base = 'truth'\ndepth = 'd24'").depthOrder == DepthOrder::stored);
+    CHECK(composed("base = 'f64'\ndepth_order = 'exact'").depthOrder == DepthOrder::exact);
     // A table starts from the base's format, or from the one that it names.
     Format old = kFp24R300;
     old.division = Division::reciprocal;
@@ -154,6 +161,9 @@ TEST_CASE("BadProfileFilesAreRefusedWithLineAndKey") {
     refuses("vertex = 'fp16'", "1: 'vertex'", "fp32, fp64");
     refuses("depth = 'd8'", "1: 'depth'");
     refuses("depth_rounding = true", "1: 'depth_rounding'", "a boolean");
+    refuses("base = 'truth'\ndepth = 'd32f'\ndepth_order = 'exact'", "3: 'depth_order'", "d64f");
+    refuses("depth_order = 'exact'", "1: 'depth_order'", "d64f");
+    refuses("depth_direction = 'backward'", "1: 'depth_direction'", "reversed");
     refuses("subpixel_bits = 3", "1: 'subpixel_bits'", "[4, 8]");
     refuses("subpixel_bits = 8.0", "1: 'subpixel_bits'", "a number");
     refuses("texture_fraction_bits = 17", "1: 'texture_fraction_bits'", "[0, 16]");

@@ -264,6 +264,38 @@ TEST_CASE("DepthRangeOfAMillionFailsFarAwayOnly") {
     CHECK(c.shadowed > 2000);
 }
 
+// A cube 4 km away, and its shadow on a wall behind it (golden/scenes/shadow_range.toml). Floats near 1 are 2^-24 apart,
+// some 150 m there. Doubles are not, and floats that are 0 on the far plane are as fine there as elsewhere.
+TEST_CASE("FarShadowsAreTheOraclesWhereDepthsTellThemApart") {
+    SurfaceScene scene = sceneWith({solidBox({-900, 350, -4000}, {350, 350, 350}),
+                                    rectangle({0, 1000, -4800}, {2000, 0, 0}, {0, 1000, 0})});
+    scene.meshes[0] = rectangle({0, 0, -4000}, {0, 0, 4500}, {4500, 0, 0});
+    scene.lights = {sun({-0.7, 0.3, 0.8})};
+    const View view = lookingAt({0, 0.2, 0.5}, {0, 0.12, 0}, 200, 150, 0.01);
+    const auto compare = [&](const char* name, DepthDirection direction, VolumeCounting counting) {
+        Profile profile = *findProfile(name);
+        profile.depthDirection = direction;
+        VolumeShadowOptions options;
+        options.counting = counting;
+        const Comparison c = compareWithOracle(scene, view, options, 1.0 / 64, profile);
+        CHECK(c.samples > 25000);
+        CHECK(c.shadowed > 800);
+        return c.falseShadow + c.falseLight + c.atBorders;
+    };
+    using enum DepthDirection;
+    for (const VolumeCounting counting : {VolumeCounting::zFail, VolumeCounting::zPass}) {
+        const int inFloat = compare("f32", forward, counting);
+        CHECK(inFloat > 100);
+        CHECK(inFloat < 400);
+        for (const auto& [profile, direction] :
+             {std::pair("f32", reversed), std::pair("f64", forward), std::pair("f64", reversed),
+              std::pair("truth", forward), std::pair("truth", reversed)}) {
+            CAPTURE(profile);
+            CHECK(compare(profile, direction, counting) == 0);
+        }
+    }
+}
+
 TEST_CASE("PointLightFarAwayIsASun") {
     SurfaceScene scene = sceneWith({torusKnotMesh(96, 16, {.tube_m = 0.2})});
     scene.instances[1].toWorld[3][1] = 1.2;

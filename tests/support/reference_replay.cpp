@@ -28,11 +28,11 @@ Real constantBias(const DepthBias& bias, const RenderTargetFormat& format, const
     const int bits = format.depth == DepthFormat::d16 ? 16 : 24;
     double u =
         format.biasUnit == BiasUnit::step ? 1 / (std::ldexp(1.0, bits) - 1) : std::ldexp(1.0, 1 - bits);
-    if (format.depth == DepthFormat::d32f) {
+    if (format.depth == DepthFormat::d32f || format.depth == DepthFormat::d64f) {
         double largest = 0x1p-70;
         for (Real z : vertexDepths<Real>(piece))
             largest = std::max(largest, std::abs(static_cast<double>(z)));
-        u = std::ldexp(1.0, std::ilogb(largest) - 23);
+        u = std::ldexp(1.0, std::ilogb(largest) - (format.depth == DepthFormat::d32f ? 23 : 52));
     }
     double value = bias.constant * u;
     if (bias.clamp > 0) value = std::min(value, bias.clamp);
@@ -40,7 +40,7 @@ Real constantBias(const DepthBias& bias, const RenderTargetFormat& format, const
     return static_cast<Real>(value);
 }
 
-bool passes(Compare compare, uint32_t a, uint32_t b) {
+bool passes(Compare compare, int64_t a, int64_t b) {
     switch (compare) {
         case Compare::never:
             return false;
@@ -62,15 +62,14 @@ bool passes(Compare compare, uint32_t a, uint32_t b) {
 }
 
 // One fragment at one sample: stencil test, depth test, writes.
-void drawSample(Target& target, const DrawState& state, bool front, uint32_t z, uint32_t id, int x, int y,
+void drawSample(Target& target, const DrawState& state, bool front, int64_t z, uint32_t id, int x, int y,
                 int s) {
-    uint32_t& storedZ = target.depth.at(x, y, s);
+    int64_t& storedZ = target.depth.at(x, y, s);
     uint8_t& stored = target.stencil.at(x, y, s);
     const StencilFace& face = front ? state.stencil.front : state.stencil.back;
     const StencilState& stencil = state.stencil;
-    const bool stencilPasses =
-        !stencil.enabled || passes(face.compare, static_cast<uint32_t>(stencil.reference & stencil.readMask),
-                                   static_cast<uint32_t>(stored & stencil.readMask));
+    const bool stencilPasses = !stencil.enabled || passes(face.compare, stencil.reference & stencil.readMask,
+                                                          stored & stencil.readMask);
     const bool depthPasses = passes(state.depthCompare, z, storedZ);
     if (stencil.enabled) {
         const StencilOperation operation = !stencilPasses ? face.onStencilFail
@@ -149,8 +148,9 @@ Target::Target(int width, int height, const RenderTargetFormat& targetFormat)
       depth(width, height, targetFormat.samples),
       stencil(width, height, targetFormat.samples),
       id(width, height, targetFormat.samples) {
-    depth.fill(format.depth == DepthFormat::d32f ? std::bit_cast<uint32_t>(1.0f)
-                                                 : (uint32_t(1) << bitsOf(format.depth)) - 1);
+    depth.fill(format.depthDirection == DepthDirection::reversed
+                   ? 0
+                   : storedDepth<double>(format.depth, DepthRounding::exact, 1));
     id.fill(kNoTriangle);
 }
 
@@ -200,13 +200,14 @@ Real interpolatedDepth(const Piece& piece, Wide x_subpx, Wide y_subpx) {
 }
 
 template <class Real>
-uint32_t storedDepth(DepthFormat format, DepthRounding rounding, Real z) {
+int64_t storedDepth(DepthFormat format, DepthRounding rounding, Real z) {
     z = z > 0 ? std::min(z, Real(1)) : Real(0);  // -0 becomes 0
-    if (format == DepthFormat::d32f) return std::bit_cast<uint32_t>(static_cast<float>(z));
+    if (format == DepthFormat::d64f) return std::bit_cast<int64_t>(static_cast<double>(z));
+    if (format == DepthFormat::d32f) return std::bit_cast<int32_t>(static_cast<float>(z));
     const int bits = bitsOf(format);
     const int64_t levels = (int64_t(1) << bits) - 1;
     if (rounding == DepthRounding::driver)
-        return static_cast<uint32_t>(std::nearbyint(static_cast<float>(z) * static_cast<float>(levels)));
+        return static_cast<int64_t>(std::nearbyint(static_cast<float>(z) * static_cast<float>(levels)));
     if (rounding == DepthRounding::fixedFunction) {
         // The float is m / 2^scale; rule 22 in integers.
         int exponent;
@@ -218,19 +219,19 @@ uint32_t storedDepth(DepthFormat format, DepthRounding rounding, Real z) {
         if (bits == 16) {
             // Cut to t / 2^20; up where 2 (t levels mod 2^20) > 2^20.
             const Wide product = ((Wide(m) << 20) >> scale) * levels;
-            return static_cast<uint32_t>((2 * product + (1 << 20) - 1) >> 21);
+            return static_cast<int64_t>((2 * product + (1 << 20) - 1) >> 21);
         }
         const Wide product = Wide(m) * levels, k = product >> scale, twice = 2 * (product - (k << scale));
         const Wide scaled = Wide(m) << 24;
         const bool isMiddle = 16 * Wide(m) < one && 2 * (scaled % one) == one;
-        return static_cast<uint32_t>(k + (twice > one || (twice == one && k % 2 == 1) || isMiddle ? 1 : 0));
+        return static_cast<int64_t>(k + (twice > one || (twice == one && k % 2 == 1) || isMiddle ? 1 : 0));
     }
     // z = mantissa / 2^scale; floor((2 mantissa levels + 2^scale) / 2^(scale + 1)).
     int exponent;
     const auto mantissa = static_cast<int64_t>(std::ldexp(std::frexp(static_cast<double>(z), &exponent), 53));
     const int scale = 53 - exponent;
     if (scale > 120) return 0;  // z < 2^-66
-    return static_cast<uint32_t>((2 * Wide(mantissa) * levels + (Wide(1) << scale)) >> (scale + 1));
+    return static_cast<int64_t>((2 * Wide(mantissa) * levels + (Wide(1) << scale)) >> (scale + 1));
 }
 
 uint8_t stencilResult(StencilOperation operation, uint8_t stored, uint8_t reference) {
@@ -254,6 +255,12 @@ uint8_t stencilResult(StencilOperation operation, uint8_t stored, uint8_t refere
     }
 }
 
+int64_t storedDepth(const RenderTarget& target, int x, int y, int sample) {
+    const auto high = static_cast<int32_t>(target.depth.at(x, y, sample));
+    if (target.lowDepth.empty()) return high;
+    return int64_t{high} * (int64_t{1} << 32) + target.lowDepth.at(x, y, sample);
+}
+
 std::string firstDifference(const RenderTarget& actual, const Target& expected) {
     for (int s = 0; s < expected.format.samples; s++)
         for (int y = 0; y < expected.id.height(); y++)
@@ -262,9 +269,9 @@ std::string firstDifference(const RenderTarget& actual, const Target& expected) 
                 if (what.empty() && actual.stencil.at(x, y, s) != expected.stencil.at(x, y, s))
                     what = formatText("stencil {} instead of {}", actual.stencil.at(x, y, s),
                                       expected.stencil.at(x, y, s));
-                if (what.empty() && actual.depth.at(x, y, s) != expected.depth.at(x, y, s))
-                    what = formatText("depth {:#x} instead of {:#x}", actual.depth.at(x, y, s),
-                                      expected.depth.at(x, y, s));
+                const int64_t depth = storedDepth(actual, x, y, s);
+                if (what.empty() && depth != expected.depth.at(x, y, s))
+                    what = formatText("depth {:#x} instead of {:#x}", depth, expected.depth.at(x, y, s));
                 if (!what.empty()) return formatText("pixel ({}, {}) sample {}: {}", x, y, s, what);
             }
     return "";
@@ -272,7 +279,7 @@ std::string firstDifference(const RenderTarget& actual, const Target& expected) 
 
 template float interpolatedDepth<float>(const Piece&, Wide, Wide);
 template double interpolatedDepth<double>(const Piece&, Wide, Wide);
-template uint32_t storedDepth<float>(DepthFormat, DepthRounding, float);
-template uint32_t storedDepth<double>(DepthFormat, DepthRounding, double);
+template int64_t storedDepth<float>(DepthFormat, DepthRounding, float);
+template int64_t storedDepth<double>(DepthFormat, DepthRounding, double);
 
 }  // namespace etalon::oracle

@@ -22,7 +22,7 @@ struct Target {
     Target(int width, int height, const RenderTargetFormat& targetFormat);
 
     RenderTargetFormat format;
-    Image<uint32_t> depth;
+    Image<int64_t> depth;
     Image<uint8_t> stencil;
     Image<uint32_t> id;
     std::vector<Record> records;
@@ -39,7 +39,10 @@ Real interpolatedDepth(const Piece& piece, Wide x_subpx, Wide y_subpx);
 
 // Rule 6, with 128-bit integers where it says "exact". z: finite, clamped here.
 template <class Real>
-uint32_t storedDepth(DepthFormat format, DepthRounding rounding, Real z);
+int64_t storedDepth(DepthFormat format, DepthRounding rounding, Real z);
+
+// What a target stores at a sample, both halves of D64F in one.
+int64_t storedDepth(const RenderTarget& target, int x, int y, int sample);
 
 // Rule 11: the value that an operation leaves, before the write mask.
 uint8_t stencilResult(StencilOperation operation, uint8_t stored, uint8_t reference);
