@@ -23,7 +23,7 @@ std::vector<BitPlane> planesOf(const RenderTarget& target) {
     }
     std::vector<BitPlane> planes = {planeOf("depth", target.depth), planeOf("stencil", target.stencil),
                                     planeOf("draw", draw), planeOf("triangle", triangle)};
-    if (!target.lowDepth.empty()) planes.push_back(planeOf("lower half of depth", target.lowDepth));
+    if (!target.lowDepth.empty()) planes.push_back(planeOf("low-depth", target.lowDepth));
     return planes;
 }
 

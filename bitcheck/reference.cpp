@@ -4,6 +4,7 @@
 #include <charconv>
 #include <optional>
 
+#include "numeric/check.h"
 #include "numeric/hash.h"
 #include "numeric/text.h"
 
@@ -158,6 +159,8 @@ std::string referenceText(const BitReference& reference) {
     for (const CaseHashes& c : reference.cases) {
         text += formatText("case {}\n", c.name);
         for (const PlaneHashes& plane : c.planes) {
+            ETALON_CHECK(plane.name.find(' ') == std::string::npos, "a plane of {} is called \"{}\"", c.name,
+                         plane.name);
             text += formatText("plane {} {} {}x{}x{}\n", plane.name, wordKindName(plane.kind), plane.width,
                                plane.height, plane.layers);
             for (size_t i = 0; i < plane.tiles.size(); i++) {
