@@ -44,7 +44,7 @@ struct Piece {
 };
 
 // What a draw does with its samples; the two special ones are written out for speed.
-//   plain: what is nearer passes and is written, no stencil
+//   plain: what is nearer passes and is written, no stencil; depths of 32 bits that grow with the distance
 //   counting: what is nearer passes, nothing is written but a stencil that every sample adds 1, 0 or -1 to (modulo
 //             2^bits), by the outcome of the depth test
 enum class DrawKind { any, plain, counting };
@@ -67,15 +67,17 @@ bool isCounting(const StencilFace& face) {
     return face.compare == Compare::always && addedBy(face.onDepthFail) != kNoFixedNumber &&
            addedBy(face.onPass) != kNoFixedNumber;
 }
-DrawKind kindOf(const DrawState& state, DepthDirection direction) {
-    if (state.depthCompare != nearerThan(direction)) return DrawKind::any;
+inline DrawKind kindOf(const DrawState& state, const RenderTargetFormat& format) {
+    if (state.depthCompare != nearerThan(format.depthDirection)) return DrawKind::any;
     const StencilState& stencil = state.stencil;
     if (stencil.enabled) {
         const bool writesNothingElse = !state.depthWrite && !state.idWrite && stencil.writeMask == 0xff;
         return writesNothingElse && isCounting(stencil.front) && isCounting(stencil.back) ? DrawKind::counting
                                                                                           : DrawKind::any;
     }
-    return state.depthWrite ? DrawKind::plain : DrawKind::any;
+    const bool isUsual =
+        format.depth != DepthFormat::d64f && format.depthDirection == DepthDirection::forward;
+    return state.depthWrite && isUsual ? DrawKind::plain : DrawKind::any;
 }
 
 // kGroup pixels of one sample plane.
@@ -178,8 +180,9 @@ class TileRasterizerOfLevel final : public TileRasterizer {
     void drawAll(const TileWork& work, std::span<const uint32_t> triangles);
     template <class Real>
     void drawPiece(const Piece& piece);
+    // Not inlined: each kind has the registers to itself.
     template <class Real, DrawKind kKind>
-    void drawSmallPiece(const Piece& piece);
+    [[gnu::noinline]] void drawSmallPiece(const Piece& piece);
     template <class Real, DrawKind kKind>
     void drawLargePiece(const Piece& piece);
     template <class Real>
@@ -267,7 +270,7 @@ void TileRasterizerOfLevel::run(const TileWork& work, const Rectangle& rectangle
     stride_ = static_cast<size_t>(rectangle.x1 - rectangle.tileX + kGroupWidth - 1);
     for (const Draw& draw : work.draws)
         ETALON_CHECK(format_.stencilBits == 8 || !draw.state.stencil.enabled ||
-                         kindOf(draw.state, format_.depthDirection) == DrawKind::counting,
+                         kindOf(draw.state, format_) == DrawKind::counting,
                      "a stencil of {} bits only counts", format_.stencilBits);
     load(true, work, target.depth, farthestDepth(format_), depth_);
     const bool isDouble = format_.depth == DepthFormat::d64f;
@@ -407,7 +410,7 @@ void TileRasterizerOfLevel::drawPiece(const Piece& piece) {
     const auto draw = [&]<DrawKind kKind>() {
         piece.isSmall ? drawSmallPiece<Real, kKind>(piece) : drawLargePiece<Real, kKind>(piece);
     };
-    switch (kindOf(*piece.state, format_.depthDirection)) {
+    switch (kindOf(*piece.state, format_)) {
         case DrawKind::any:
             return draw.template operator()<DrawKind::any>();
         case DrawKind::plain:
@@ -648,7 +651,7 @@ template <class Real, DrawKind kKind>
                                                                const PieceDepth<Real>& pieceDepth,
                                                                const typename PieceDepth<Real>::vec3& e,
                                                                const Group& group, GroupMask covered) {
-    if (format_.depth == DepthFormat::d64f)
+    if (kKind != DrawKind::plain && format_.depth == DepthFormat::d64f)
         return testDoubles<Real, kKind>(piece, pieceDepth.at(e), group, covered);
     const DrawState& state = *piece.state;
     const GroupInt stored = loadGroup(&depth_[group.offset], stride_);
@@ -662,7 +665,7 @@ template <class Real, DrawKind kKind>
     }
     if constexpr (kKind == DrawKind::plain) {
         depth = storedByRegister(format_.depth, format_.depthRounding, pieceDepth.at(e));
-        passed = covered && isNearer(depth, stored);
+        passed = covered && depth < stored;
     } else {
         depth = storedByRegister(format_.depth, format_.depthRounding, pieceDepth.at(e));
         passed = covered && compareValues(state.depthCompare, depth, stored);
