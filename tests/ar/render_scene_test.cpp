@@ -462,3 +462,38 @@ TEST_CASE("MirrorsShowAsManyReflectionsAsAreAskedFor") {
     const Frame frame = frameOf(scene);
     CHECK(*std::ranges::min_element(valuesOf(frame, 0)) == 0x1p-4f);
 }
+
+// Two planes 50 m apart at 5 km, with a near plane at 0.01 m: floats that are 1 on the far plane have 150 m there.
+TEST_CASE("TheNearerOfTwoFarPlanesIsSeen") {
+    const test::ScratchFolder folder;
+    const std::filesystem::path file = folder.path() / "planes.toml";
+    const auto plane = [](const char* z_m) {
+        return std::string("[[plane]]\npoint = [0, 0, ") + z_m +
+               "]\nnormal = [0, 0, 1]\nsize_m = [20000, 20000]\nmaterial = 'm'\n";
+    };
+    std::ofstream(file) << "[camera]\nwidth = 64\nheight = 48\nfov_y_deg = 45\nnear = 0.01\nfar = 10000\n"
+                        << "position = [0, 0, 0]\nlook_at = [0.1, 0.03, -1]\n[material.m]\nkind = 'lambert'\n"
+                        << "diffuse = [1, 1, 1]\n" + plane("-5000") + plane("-4950")
+                        << "[output]\nimages = ['ids']\n";
+    const Scene scene = loadScene(file);
+    const auto hiddenSeen = [&](const char* name, DepthFormat depth, DepthDirection direction) {
+        Profile profile = *findProfile(name);
+        profile.depth = depth, profile.depthDirection = direction;
+        if (depth != DepthFormat::d64f) profile.depthOrder = DepthOrder::stored;
+        RenderOptions options;
+        options.profile = profile;
+        int hidden = 0;
+        for (const uint32_t id :
+             std::get<Image<uint32_t>>(frameOf(scene, options).channels[0].values).values())
+            hidden += id != 2;
+        return hidden;
+    };
+    using enum DepthDirection;
+    for (const DepthDirection direction : {forward, reversed}) {
+        CHECK(hiddenSeen("truth", DepthFormat::d64f, direction) == 0);
+        CHECK(hiddenSeen("f64", DepthFormat::d64f, direction) == 0);
+    }
+    CHECK(hiddenSeen("f32", DepthFormat::d32f, reversed) == 0);
+    // As before there were depths of double.
+    CHECK(hiddenSeen("f64", DepthFormat::d32f, forward) > 1000);
+}
