@@ -482,9 +482,9 @@ TEST_CASE("TheNearerOfTwoFarPlanesIsSeen") {
         if (depth != DepthFormat::d64f) profile.depthOrder = DepthOrder::stored;
         RenderOptions options;
         options.profile = profile;
+        const Frame frame = frameOf(scene, options);
         int hidden = 0;
-        for (const uint32_t id :
-             std::get<Image<uint32_t>>(frameOf(scene, options).channels[0].values).values())
+        for (const uint32_t id : std::get<Image<uint32_t>>(frame.channels[0].values).values())
             hidden += id != 2;
         return hidden;
     };
