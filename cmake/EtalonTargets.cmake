@@ -35,7 +35,7 @@ set(etalon_common_headers <algorithm> <array> <cmath> <filesystem> <functional> 
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   list(APPEND etalon_common_headers <immintrin.h>)
 endif()
-file(WRITE ${CMAKE_BINARY_DIR}/etalon_headers.cpp "")
+file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/etalon_headers.cpp CONTENT "")
 add_library(etalon_headers OBJECT ${CMAKE_BINARY_DIR}/etalon_headers.cpp)
 target_link_libraries(etalon_headers PRIVATE etalon_numeric_flags etalon_warnings glm::glm)
 target_precompile_headers(etalon_headers PRIVATE ${etalon_common_headers})

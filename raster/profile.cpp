@@ -16,8 +16,8 @@ std::array<Profile, 11> namedProfiles() {
          RasterReal::fp64, DepthFormat::d64f},
         {"truth",
          "192-bit arithmetic for fragments, double for vertices, depths in their exact order; slow, to "
-         "measure the "
-         "others against",
+         "measure "
+         "the others against",
          Arithmetic::truth, RasterReal::fp64, DepthFormat::d64f},
         {"d3d11",
          "single precision with flushed subnormals, 8-bit texture fractions, D24 [documented]; 8-bit weights",

@@ -71,6 +71,7 @@ class Rasterization {
     void projectAll() {
         size_t count = 0;
         const size_t base = target_.vertices.size();
+        target_.biases.resize(target_.drawCount);  // without those of a call that failed
         for (const Draw& draw : draws_) {
             ETALON_CHECK(target_.format.depthOrder == DepthOrder::stored || draw.state.idWrite ||
                              !draw.state.depthWrite,

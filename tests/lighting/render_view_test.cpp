@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "bitcheck/inputs.h"
 #include "lighting/lit_points.h"
 #include "lighting/shading_passes.h"
 #include "numeric/door.h"
@@ -22,26 +23,39 @@ constexpr double kPi = 3.141592653589793;
 }  // namespace
 
 TEST_CASE("ReversedDepthsShowTheSameTriangles") {
+    // Things before each other.
+    const SurfaceScene scene = demoScene();
+    for (const char* name : {"f32", "f64", "truth", "d3d11"}) {
+        CAPTURE(name);
+        Profile profile = *findProfile(name);
+        const auto placed = placeMeshes(scene, profile.vertex, 0);
+        const VisibleScene forward = findVisible(scene, placed, demoView(96, 72), profile, 4, {});
+        profile.depthDirection = DepthDirection::reversed;
+        const VisibleScene reversed = findVisible(scene, placed, demoView(96, 72), profile, 4, {});
+        const auto a = forward.target.id.values(), b = reversed.target.id.values();
+        size_t different = 0;
+        for (size_t i = 0; i < a.size(); i++) different += a[i] != b[i];
+        // Of depths that round alike the first is seen.
+        CHECK(different <= (profile.vertex == RasterReal::fp64 ? 0 : a.size() / 1000));
+    }
+}
+
+// Of a wall 1.5 m away.
+TEST_CASE("DepthsInBothDirectionsAreThoseOfTheDistance") {
     const SurfaceScene scene = test::box(2, 3, 4);
     for (const char* name : {"f32", "f64", "truth", "d3d11"}) {
         CAPTURE(name);
         Profile profile = *findProfile(name);
         const auto placed = placeMeshes(scene, profile.vertex, 0);
         const View view = cubeFaceView(CubeFace::plusX, 64, {0.5, 0.1, 0.3}, 0.1, 50);
-        const VisibleScene forward = findVisible(scene, placed, view, profile, 4, {});
-        profile.depthDirection = DepthDirection::reversed;
-        const VisibleScene reversed = findVisible(scene, placed, view, profile, 4, {});
-        CHECK(forward.target.id == reversed.target.id);
-        const auto depthAt = [](const VisibleScene& visible, int s) {
-            const RenderTarget& target = visible.target;
-            return depthFromStored(target.format.depth, target.depth.at(32, 32, s),
-                                   target.lowDepth.empty() ? 0 : target.lowDepth.at(32, 32, s));
+        const auto depth = [&](DepthDirection direction) {
+            profile.depthDirection = direction;
+            const RenderTarget target = findVisible(scene, placed, view, profile, 1, {}).target;
+            return depthFromStored(target.format.depth, target.depth.at(32, 32),
+                                   target.lowDepth.empty() ? 0 : target.lowDepth.at(32, 32));
         };
-        // The wall is 1.5 m away.
-        for (int s = 0; s < 4; s++) {
-            CHECK(depthAt(forward, s) == doctest::Approx((1 - 0.1 / 1.5) * 50 / 49.9).epsilon(1e-6));
-            CHECK(depthAt(reversed, s) == doctest::Approx((50 / 1.5 - 1) * 0.1 / 49.9).epsilon(1e-5));
-        }
+        CHECK(depth(DepthDirection::forward) == doctest::Approx((1 - 0.1 / 1.5) * 50 / 49.9).epsilon(1e-6));
+        CHECK(depth(DepthDirection::reversed) == doctest::Approx((50 / 1.5 - 1) * 0.1 / 49.9).epsilon(1e-5));
     }
 }
 

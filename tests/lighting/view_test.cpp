@@ -40,6 +40,17 @@ void checkThatRaysProjectToTheirPixels(const View& view, RandomNumbers& random, 
     }
 }
 
+// 100 x 100 pixels, looking along -z from (3, -2, 1), with the near plane at 0.25 m.
+PinholeCamera squareCamera() {
+    PinholeCamera camera;
+    camera.width = camera.height = 100;
+    camera.fx = camera.fy = 100;
+    camera.cx = camera.cy = 50;
+    camera.position = {3, -2, 1};
+    camera.near_m = 0.25;
+    return camera;
+}
+
 }  // namespace
 
 TEST_CASE("CameraRaysProjectToTheirPixels") {
@@ -77,12 +88,7 @@ TEST_CASE("CubeFaceRaysAreTheDirectionsOfTheFaceTable") {
 
 TEST_CASE("InfiniteFarPlanePutsPointsAtInfinityAtDepthOne") {
     RandomNumbers random(6);
-    PinholeCamera camera;
-    camera.width = camera.height = 100;
-    camera.fx = camera.fy = 100;
-    camera.cx = camera.cy = 50;
-    camera.position = {3, -2, 1};
-    camera.near_m = 0.25;
+    PinholeCamera camera = squareCamera();
     const View finite = cameraView(camera), view = withInfiniteFar(finite);
     camera.far_m = HUGE_VAL;
     CHECK(cameraView(camera).worldToClip[2] == view.worldToClip[2]);
@@ -101,12 +107,8 @@ TEST_CASE("InfiniteFarPlanePutsPointsAtInfinityAtDepthOne") {
 
 TEST_CASE("ReversedDepthsAreOneOnTheNearPlaneAndZeroOnTheFarOne") {
     RandomNumbers random(7);
-    PinholeCamera camera;
-    camera.width = camera.height = 100;
-    camera.fx = camera.fy = 100;
-    camera.cx = camera.cy = 50;
-    camera.position = {3, -2, 1};
-    camera.near_m = 0.25, camera.far_m = 4000;
+    PinholeCamera camera = squareCamera();
+    camera.far_m = 4000;
     for (const View& view : {cameraView(camera), withInfiniteFar(cameraView(camera)),
                              cubeFaceView(CubeFace::minusY, 64, {3, -1, 2}, 0.25, 4000)}) {
         const View reversed = inDirection(view, DepthDirection::reversed);
